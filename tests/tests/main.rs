@@ -8,6 +8,7 @@ mod certificate;
 mod closed_forms;
 mod derivatives;
 mod diagnosis;
+mod directions;
 mod drawing;
 mod ensemble;
 mod equilibrium;

@@ -5,6 +5,7 @@ use tests::{Random, assert_all_close, assert_close};
 use ukcore::solver::Formula;
 use ukcore::{
     Error, Linearisation, Mechanism, Method, Simulation, Solver, SolverOptions, State, assemble,
+    lost_reactions,
 };
 
 /// A body of each with gravity, that the given joint connects.
@@ -471,6 +472,53 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A toggle of two equal bars that a ram is driven by, whose guide rubs: straight, it can go no further.
+    pub Press {
+        params { l = 1.0, m = 1.0, mu = 0.1, begin = 1.0 }
+        bodies {
+            for i in 0..2 { planar bar[i] { mass: m, inertia: m * sq(l) / 12.0, centre: [l / 2.0, 0] } }
+            planar ram { mass: 2.0 * m, inertia: m }
+        }
+        gravity { [0, -9.81] }
+        holonomic {
+            base: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            knee: pin(bar[0].at([l, 0]), bar[1].at([0, 0]))
+            end: pin(bar[1].at([l, 0]), ram.at([0, 0]))
+            guide: slider(ground.at([0, 0]), ram.at([0, 0]), [0, 1])
+            press: ram.y = 2.0 * l * sin(begin) + t
+        }
+        integral { loss = mu * norm(reaction(guide)) * abs(dot(ram.y)) }
+        start closing { bar[0].angle near begin; bar[1].angle near PI - begin; ram.y near 2.0 * l * sin(begin) }
+    }
+}
+
+/// What ends the run is not the integrand, but where the motion has got to.
+#[test]
+fn an_integrand_that_loses_its_reaction_names_the_constraints() {
+    for begin in [1.0, 1.5] {
+        let press = Press {
+            begin,
+            ..Press::default()
+        };
+        let start = press.start("closing", &[].into()).expect("a start");
+        assert_eq!(lost_reactions(&press, &start), None);
+        let failure = Simulation::new(press).start(start).until(1.0).unwrap_err();
+        let straight = 2.0 - 2.0 * f64::sin(begin);
+        let last = failure.trajectory.last().expect("it has begun").t;
+        assert!((last - straight).abs() < 1e-4, "{last}, {straight}");
+        let text = failure.to_string();
+        for part in [
+            "integrand of loss; ",
+            "`press`",
+            "imply each other there",
+            "end the run before",
+        ] {
+            assert!(text.contains(part), "{text}");
+        }
+    }
+}
+
 #[test]
 fn loads_that_are_not_determined_are_not_a_number() {
     let mut start = State {
@@ -483,6 +531,11 @@ fn loads_that_are_not_determined_are_not_a_number() {
         .until(1.0)
         .unwrap();
     assert!(run.output("load").unwrap().iter().all(|load| load.is_nan()));
+    let told = lost_reactions(Table::default(), &start).expect("loads are not determined");
+    assert!(
+        told.starts_with("`a`, `b`, `c`, `d` imply each other there"),
+        "{told}"
+    );
     assert!(
         run.multipliers("a")
             .unwrap()

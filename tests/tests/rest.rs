@@ -31,6 +31,18 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A pendulum on a cart that nothing holds, in oil that turns with the cart.
+    pub Dragged {
+        params { big = 2.0, m = 1.0, l = 0.5, g = 9.81, c = 0.3 }
+        coords { s, x, y }
+        mass { s: big, x: m, y: m }
+        potential { m * g * y }
+        force { x: -c * (dot(x) - dot(s)), s: c * (dot(x) - dot(s)) }
+        holonomic { rod: sq(x - s) + sq(y) = sq(l) }
+    }
+}
+
 fn guess(q: &[f64]) -> State {
     State {
         t: 0.0,
@@ -73,6 +85,29 @@ fn a_rope_hangs_as_its_weights_pull() {
     off[Rope::Y[1]] += 1e-3;
     let fallen = equilibrium(&rope, &guess(&off), &[]).expect("it hangs");
     assert_all_close("places", &fallen.state.q, q, 1e-8);
+}
+
+/// Forces without a potential move what costs nothing no more than others do: the centre of mass stays.
+#[test]
+fn what_nothing_holds_stays_where_it_is_guessed() {
+    let dragged = Dragged::default();
+    for (at, angle) in [(0.0, 0.9), (3.0, 0.2), (-40.0, 1.5)] {
+        let (sin, cos) = f64::sin_cos(angle);
+        let start = [at, at + 0.5 * sin, -0.5 * cos];
+        let found = equilibrium(&dragged, &guess(&start), &[]).expect("rest");
+        let [s, x, y] = found.state.q[..] else {
+            panic!("three coordinates")
+        };
+        assert_eq!(found.stability, Stability::Neutral);
+        assert_close("height", y, -0.5, 1e-12);
+        assert_close("it hangs", x - s, 0.0, 1e-9);
+        assert_close(
+            "centre",
+            s,
+            (2.0 * at + start[1]) / 3.0,
+            1e-9 * (1.0 + at.abs()),
+        );
+    }
 }
 
 #[test]

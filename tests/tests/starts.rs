@@ -30,6 +30,21 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// The linkage with a mass for each bar.
+    pub Uneven {
+        params { l[3] = [0.5, 2.0, 1.5], m[3] = 1.0, span = 2.0 }
+        bodies { for i in 0..3 { planar bar[i] { mass: m[i], inertia: m[i] * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+        }
+        start open(crank = 1.0) { bar[0].angle = crank; bar[1].angle near 0.3; bar[2].angle near 1.4; bar[0].omega = 2.0 }
+    }
+}
+
+ukcore::multibody! {
     /// A box with a corner on a ball joint, beside a driven slide.
     pub Hung {
         params { a[3] = [0.1, 0.2, 0.3] }
@@ -131,6 +146,24 @@ fn families_bodies_and_what_moves_with_time() {
     assert!(turned.q[Hung::BLOCK_E1] > 0.9, "{turned:?}");
 }
 
+/// Where a crank is held there are two places for the others, whatever they weigh.
+#[test]
+fn masses_many_orders_apart_are_assembled() {
+    let even = Uneven::default().prepared();
+    let expected = state(&even, "open", StartOptions::new());
+    for exponent in [-12, -8, -4, 4, 8, 12] {
+        for i in 0..3 {
+            let mut uneven = Uneven::default();
+            uneven.m[i] = 10_f64.powi(exponent);
+            let found = uneven.prepared().start("open", &StartOptions::new());
+            let found = found.unwrap_or_else(|error| panic!("m[{i}] = 1e{exponent}: {error}"));
+            let place = format!("m[{i}] = 1e{exponent}");
+            assert_all_close(&place, &found.q, &expected.q, 1e-9);
+            assert_all_close(&place, &found.v, &expected.v, 1e-8);
+        }
+    }
+}
+
 /// Wherever the constraints put the body, it has the angular velocity that was asked for.
 #[test]
 fn bodies_turn_as_they_are_told() {
@@ -144,6 +177,11 @@ fn bodies_turn_as_they_are_told() {
     for w in [-3.0, 0.0, 0.7] {
         let spun = state(&hung, "spun", [("w", w)].into());
         assert_all_close("ω", &seen(&spun, "omega"), &[w, 1.0, -2.0], 1e-14);
+        // In whichever way it is put together.
+        let ways = hung.branches("spun", &[("w", w)].into()).unwrap();
+        for way in [&ways.state].into_iter().chain(&ways.alternatives) {
+            assert_all_close("ω of a way", &seen(way, "omega"), &[w, 1.0, -2.0], 1e-14);
+        }
         let [e0, e2] = [Hung::BLOCK_E0, Hung::BLOCK_E2].map(|i| spun.q[i]);
         assert!(e0 != 0.8 && e2 != 0.6, "the hook has moved it: {spun:?}");
         let rolled = state(&hung, "rolled", [("w", w)].into());

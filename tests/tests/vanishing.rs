@@ -278,6 +278,52 @@ fn rest_in_an_apex_is_named_and_rest_before_it_is_not() {
     }
 }
 
+ukcore::multibody! {
+    /// A point on a cone with the potential k u² (u − b) of u = z + 1: along a line from u = 0 it moves as u̇² = k u² (b − u), so
+    /// u = b sech²(√(k b) t / 2) comes to rest at u = b, in the apex for b = 1.
+    pub Hill {
+        params { k = 4.0, b = 1.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        potential { k * sq(z + 1.0) * (z + 1.0 - b) }
+        holonomic { cone: sq(x) + sq(y) = sq(z) }
+    }
+}
+
+/// As a run of its own, a member is looked at wherever it comes to rest, though its rows have not changed for long.
+#[test]
+fn members_of_an_ensemble_end_at_rest_in_an_apex() {
+    for tolerance in [1e-6, 1e-9] {
+        let members = [1.0, 0.9].map(|b: f64| {
+            let hill = Hill {
+                b,
+                ..Hill::default()
+            };
+            let u = b / (1.5 * (hill.k * b).sqrt()).cosh().powi(2);
+            let (z, v) = (u - 1.0, u * (hill.k * (b - u)).sqrt());
+            let start = State {
+                t: -3.0,
+                q: vec![-0.6 * z, -0.8 * z, z],
+                v: vec![-0.6 * v, -0.8 * v, v],
+            };
+            (hill, start)
+        });
+        let alone = Simulation::new(Hill::default()).tolerance(tolerance);
+        let alone = alone.start(members[0].1.clone()).until(0.5);
+        named(&alone.expect_err("rest in an apex"), "cone", 1e-2);
+        let ends = Ensemble::new(members.to_vec()).tolerance(tolerance);
+        let [rests, turns] = <[_; 2]>::try_from(ends.until(0.5)).expect("two members");
+        let Err(Error::At { t, source, .. }) = &rests else {
+            panic!("{tolerance:e}: {rests:?}")
+        };
+        assert!(*t <= 1e-2 && matches!(&**source, Error::Singular { .. }));
+        let end = turns.expect("it turns before the apex").end;
+        let u = 0.9 / (0.25 * f64::sqrt(3.6)).cosh().powi(2);
+        let off = (end.q[2] + 1.0 - u).abs();
+        assert!(off < 1e3 * tolerance, "{tolerance:e}: {off:e}");
+    }
+}
+
 /// Lanes look for rows that vanish as a run of its own does.
 #[test]
 fn members_of_an_ensemble_pass_nodes_and_end_before_apexes() {

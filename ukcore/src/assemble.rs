@@ -43,6 +43,13 @@ impl State {
         }
     }
 
+    /// `error` with this state as the place where it arose.
+    pub(crate) fn locate(&self, error: Error) -> Error {
+        let State { t, q, v } = self.clone();
+        let source = Box::new(error);
+        Error::At { t, q, v, source }
+    }
+
     /// Checks lengths, and that every number is finite.
     ///
     /// # Errors
@@ -200,12 +207,7 @@ fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     let mut search = Search::new(mech, guess, &held.positions);
     search.untold.clone_from(&held.untold);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
-    if held.velocities != held.positions {
-        search = Search::new(mech, guess, &held.velocities);
-    }
-    let v = held.rates(&q, &guess.v);
-    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
-    Ok(State { t: guess.t, q, v })
+    Search::velocities(mech, guess, held, q)
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.

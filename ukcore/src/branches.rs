@@ -4,14 +4,14 @@
 //! Gauss and Newton's method along the constraints. Distances are measured by the root of inertia, over the coordinates that the guess
 //! tells of.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::assemble::{Held, Search, State, assembled, held};
 use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
 use crate::random::Random;
 use crate::scan::{largest, largest_difference};
 use crate::start::{Said, StartOptions};
@@ -87,28 +87,22 @@ fn branches_of(
         found: Vec::new(),
     };
     ways.seek();
-    let size = largest(&guess.q).max(1.0);
-    let far = |way: &Way| way.distance;
-    ways.found.sort_by(|a, b| far(a).total_cmp(&far(b)));
-    let Some(nearest) = ways.found.first() else {
-        // Says why.
-        let state = assembled(mech, guess, held.clone())?;
-        return Ok(ways.assembled(state, Vec::new(), told));
-    };
-    let none = NONE * size * ways.weights.amax();
-    let bound = AS_NEAR * far(nearest).max(none);
-    let near = ways.found.iter().take_while(|way| far(way) <= bound);
-    let states: Vec<State> = near.filter_map(|way| ways.state(&way.q).ok()).collect();
-    let mut states = states.into_iter();
-    match states.next() {
-        Some(state) => Ok(ways.assembled(state, states.collect(), told)),
-        // Velocities contradict each other.
-        None => Err(ways.state(&nearest.q).err().unwrap_or(Error::NotAssembled {
-            level: "velocity",
-            constraints: Vec::new(),
-            held: Vec::new(),
-        })),
+    ways.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    let nearest = ways.found.first().map_or(0.0, |way| way.distance);
+    let none = NONE * largest(&guess.q).max(1.0) * ways.weights.amax();
+    let bound = AS_NEAR * nearest.max(none);
+    let near = ways.found.iter().take_while(|way| way.distance <= bound);
+    let states = near.filter_map(|way| {
+        let q = way.q.clone();
+        Search::velocities(mech, guess, held, q).ok()
+    });
+    let mut states: Vec<State> = states.collect();
+    if states.is_empty() {
+        // It says why.
+        states.push(assembled(mech, guess, held.clone())?);
     }
+    let state = states.remove(0);
+    Ok(ways.assembled(state, states, told))
 }
 
 /// A place on the constraints, and how far it is from the guess.
@@ -175,13 +169,8 @@ impl Ways<'_> {
                 ..self.guess.clone()
             };
             let rows = constraint_matrix(self.mech, &here);
-            let (h, held) = (self.mech.spec().holonomic, &self.held.positions);
-            let mut fixed = DMatrix::zeros(h + held.len(), n);
-            fixed.rows_mut(0, h).copy_from(&rows.rows(0, h));
-            for (k, j) in held.iter().enumerate() {
-                fixed[(h + k, *j)] = 1.0;
-            }
-            let mut ways = null_space(fixed, &self.units);
+            let rows = rows.rows(0, self.mech.spec().holonomic).into_owned();
+            let mut ways = null_space_holding(&self.held.positions, rows, &self.units);
             if ways.is_empty() {
                 return;
             }
@@ -235,16 +224,6 @@ impl Ways<'_> {
             Some(_) => {}
             None => self.found.push(Way { q, distance }),
         }
-    }
-
-    /// The state at `q` whose velocities are next to those of the guess.
-    fn state(&self, q: &[f64]) -> Result<State, Error> {
-        let mut there = self.guess.clone();
-        there.q.copy_from_slice(q);
-        let mut search = Search::new(self.mech, &there, &self.held.velocities);
-        let at = At::new(self.mech, Level::Velocity, there.t, q);
-        there.v = search.find(&at, &self.guess.v)?;
-        Ok(there)
     }
 
     fn assembled(&self, state: State, alternatives: Vec<State>, told: &[usize]) -> Assembled {

@@ -8,10 +8,11 @@ use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, normalise, units};
+use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
 use crate::nearby::nearby;
 use crate::random::Random;
-use crate::solver::{Solver, SolverOptions};
+use crate::solver::{Accepted, Solver, SolverOptions};
+use crate::spec::Spec;
 
 /// States near one that are looked at, to tell what holds at it alone.
 const NEIGHBOURS: usize = 3;
@@ -80,22 +81,22 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     let spec = mech.spec();
     let (n, m) = (spec.n(), spec.m());
     state.check(&mech)?;
-    let (rank, rows) = independent(&mech, state)?;
+    let mut solver = Solver::new(&mech, SolverOptions::default());
+    let (rank, rows) = independent(&mut solver, state)?;
     let relations = relations(&rows, rank);
-    let names = |rows: &[usize]| -> Vec<String> {
-        let names = rows.iter().map(|i| spec.constraints[*i].name.to_owned());
-        names.collect()
-    };
+    let names = |rows: &[usize]| names(spec, rows);
     let follow: Vec<usize> = relations.iter().map(|r| r.row).collect();
     let mut undetermined: Vec<usize> = relations.iter().flat_map(Relation::rows).collect();
     undetermined.sort_unstable();
     undetermined.dedup();
     let mut only_here = Vec::new();
     let mut random = Random::new(0x5eed);
-    for _ in 0..NEIGHBOURS {
+    // No rank is higher than that of all rows, or all columns.
+    let neighbours = if rank < m.min(n) { NEIGHBOURS } else { 0 };
+    for _ in 0..neighbours {
         let there = nearby(&mech, state, &mut random);
         // Where nothing can be solved for nearby, nothing is told of it.
-        let there = there.and_then(|there| independent(&mech, &there).ok());
+        let there = there.and_then(|there| independent(&mut solver, &there).ok());
         let Some((there, rows)) = there.filter(|(there, _)| *there > rank) else {
             continue;
         };
@@ -123,13 +124,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
         rank,
         degrees_of_freedom: n - rank,
         freedoms_of_position: n - position,
-        redundant: relations
-            .iter()
-            .map(|relation| Redundant {
-                name: spec.constraints[relation.row].name.to_owned(),
-                follows_from: names(&relation.from),
-            })
-            .collect(),
+        redundant: named(spec, &relations),
         only_here: names(&only_here),
         undetermined: names(&undetermined),
         margin,
@@ -146,16 +141,17 @@ pub fn diagnose_along(
     states: impl IntoIterator<Item = State>,
 ) -> Result<Option<Diagnosis>, Error> {
     let mech: Prepared = mechanism.into();
+    let mut solver = Solver::new(&mech, SolverOptions::default());
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
-        let found = independent(&mech, &state).map(|(rank, rows)| {
+        let found = independent(&mut solver, &state).map(|(rank, rows)| {
             let follow: Vec<usize> = relations(&rows, rank).iter().map(|r| r.row).collect();
             let free: Vec<usize> = (0..mech.spec().m())
                 .filter(|row| !follow.contains(row))
                 .collect();
             (rank, margin(&rows, &free).0)
         });
-        let (rank, margin) = found.map_err(|error| located(&state, error))?;
+        let (rank, margin) = found.map_err(|error| state.locate(error))?;
         let nearer =
             |(least, closest, _): &(usize, f64, State)| (rank, margin) < (*least, *closest);
         if nearest.as_ref().is_none_or(nearer) {
@@ -163,30 +159,61 @@ pub fn diagnose_along(
         }
     }
     let told =
-        nearest.map(|(.., state)| diagnose(&mech, &state).map_err(|error| located(&state, error)));
+        nearest.map(|(.., state)| diagnose(&mech, &state).map_err(|error| state.locate(error)));
     told.transpose()
 }
 
-fn located(state: &State, error: Error) -> Error {
-    let State { t, q, v } = state.clone();
-    let source = Box::new(error);
-    Error::At { t, q, v, source }
+/// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is unknown.
+pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
+    let mech: Prepared = mechanism.into();
+    let State { t, q, v } = state;
+    let mut acceleration = vec![0.0; q.len()];
+    if !mech.spec().structure.straight_line
+        || Accepted::WHOLE.has(mech.acceleration(*t, q, v, &mut acceleration))
+    {
+        return None;
+    }
+    let found = diagnose(&mech, state).ok()?;
+    let (rows, how) = match found.undetermined.is_empty() {
+        true => (&found.nearest, "all but imply"),
+        false => (&found.undetermined, "imply"),
+    };
+    let rows = quoted(rows);
+    (!rows.is_empty()).then(|| {
+        format!("{rows} {how} each other there, so that reactions are not unique: end the run before, or do without them")
+    })
+}
+
+/// The constraints that follow from those declared before them at `state`, where A has the rank `rank`.
+pub(crate) fn redundant(mech: &Prepared, state: &State, rank: usize) -> Vec<Redundant> {
+    named(mech.spec(), &relations(&measured_rows(mech, state), rank))
+}
+
+fn named(spec: &Spec, relations: &[Relation]) -> Vec<Redundant> {
+    let named = relations.iter().map(|relation| Redundant {
+        name: spec.constraints[relation.row].name.to_owned(),
+        follows_from: names(spec, &relation.from),
+    });
+    named.collect()
+}
+
+fn names(spec: &Spec, rows: &[usize]) -> Vec<String> {
+    let names = rows.iter().map(|i| spec.constraints[*i].name.to_owned());
+    names.collect()
 }
 
 /// The rank of A, as the solver decides it, and its rows, each of length 1 in the mass metric.
-fn independent(mech: &Prepared, state: &State) -> Result<(usize, DMatrix<f64>), Error> {
+fn independent(solver: &mut Solver, state: &State) -> Result<(usize, DMatrix<f64>), Error> {
     let State { t, q, v } = state;
-    let solution = Solver::new(mech, SolverOptions::default()).solve(*t, q, v)?;
-    Ok((solution.rank, measured_rows(mech, state)))
+    let rank = solver.solve(*t, q, v)?.rank;
+    Ok((rank, measured_rows(solver.mechanism(), state)))
 }
 
 /// The rows of A at `state`, each of length 1 in the mass metric.
 pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
     let units = units(&mass_matrix(mech, state));
     let mut rows = constraint_matrix(mech, state);
-    for (mut column, unit) in rows.column_iter_mut().zip(units.iter()) {
-        column *= *unit;
-    }
+    measure(&mut rows, &units);
     normalise(&mut rows);
     rows
 }

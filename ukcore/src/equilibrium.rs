@@ -11,7 +11,7 @@ use crate::assemble::{Held, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space, units};
+use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -122,8 +122,9 @@ struct Search {
 /// A position on the constraints, and what drives it.
 struct Place {
     state: State,
-    /// Orthonormal displacements that are allowed, in units of the coordinates.
+    /// Orthonormal displacements that constraints and held coordinates allow, in units of the coordinates.
     basis: DMatrix<f64>,
+    mass: DMatrix<f64>,
     units: DVector<f64>,
     /// r, by these displacements.
     force: DVector<f64>,
@@ -150,24 +151,26 @@ impl Place {
 
     /// Newton's step; downhill, where forces have a potential.
     fn step(&self, stiffness: &DMatrix<f64>) -> DVector<f64> {
-        if self.potential.is_none()
-            && let Some(step) = stiffness.clone().lu().solve(&self.force)
-        {
-            return step;
-        }
         let largest = stiffness.amax();
-        let curved = symmetric(stiffness).symmetric_eigen();
-        let mut shares = curved.eigenvectors.tr_mul(&self.force);
-        for (share, curvature) in shares.iter_mut().zip(curved.eigenvalues.iter()) {
-            // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
-            let flat = curvature.abs() <= FLAT * largest;
-            *share /= if flat {
-                largest.max(f64::MIN_POSITIVE)
-            } else {
-                curvature.abs()
-            };
+        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+        let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
+            true => largest.max(f64::MIN_POSITIVE),
+            false => curvature.abs(),
+        };
+        let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
+            let pairs = shares.iter_mut().zip(curvatures.iter());
+            pairs.for_each(|(share, curvature)| *share /= curved(*curvature));
+            shares
+        };
+        if self.potential.is_none() {
+            let svd = stiffness.clone().svd(true, true);
+            if let (Some(u), Some(v)) = (&svd.u, &svd.v_t) {
+                return v.tr_mul(&shared(u.tr_mul(&self.force), &svd.singular_values));
+            }
         }
-        curved.eigenvectors * shares
+        let eigen = symmetric(stiffness).symmetric_eigen();
+        let shares = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
+        eigen.eigenvectors * shares
     }
 }
 
@@ -194,11 +197,12 @@ impl Search {
         let units = units(&mass);
         let sizes = state.q.iter().zip(units.iter());
         self.size = sizes.fold(self.size, |s, (q, unit)| s.max((q / unit).abs()));
-        let inertial = mass * DVector::from_vec(solved.acceleration);
+        let inertial = &mass * DVector::from_vec(solved.acceleration);
         let push = inertial.component_mul(&units);
         let parts = solved.ideal_force.iter().zip(units.iter());
         let parts: f64 = parts.map(|(f, unit)| (f * unit).abs()).sum();
-        let basis = self.basis(&state, &units);
+        let rows = constraint_matrix(&self.mech, &state);
+        let basis = null_space_holding(&self.held, rows, &units);
         let conservative = self.mech.spec().structure.conservative;
         let energy = self.mech.energy(state.t, &state.q, &state.v);
         Ok(Place {
@@ -206,23 +210,11 @@ impl Search {
             parts: parts + push.abs().sum(),
             potential: conservative.then_some(energy.potential),
             basis,
+            mass,
             units,
             push,
             state,
         })
-    }
-
-    /// Displacements that constraints and held coordinates allow.
-    fn basis(&self, state: &State, units: &DVector<f64>) -> DMatrix<f64> {
-        let spec = self.mech.spec();
-        let (n, m) = (spec.n(), spec.m());
-        let mut rows = DMatrix::zeros(m + self.held.len(), n);
-        rows.view_mut((0, 0), (m, n))
-            .copy_from(&constraint_matrix(&self.mech, state));
-        for (k, j) in self.held.iter().enumerate() {
-            rows[(m + k, *j)] = 1.0;
-        }
-        null_space(rows, units)
     }
 
     /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.
@@ -247,13 +239,12 @@ impl Search {
         if self.held.is_empty() {
             let n = self.mech.spec().n();
             let found = Linearisation::at(&self.mech, &here.state)?;
-            let mass = mass_matrix(&self.mech, &here.state);
             let slope = DMatrix::from_vec(n, n, found.by_position);
             let mut scaled = here.basis.clone();
             for (mut row, unit) in scaled.row_iter_mut().zip(here.units.iter()) {
                 row *= *unit;
             }
-            return Ok(-scaled.tr_mul(&(mass * (slope * &scaled))));
+            return Ok(-scaled.tr_mul(&(&here.mass * (slope * &scaled))));
         }
         let freedoms = here.force.len();
         let mut out = DMatrix::zeros(freedoms, freedoms);

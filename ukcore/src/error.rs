@@ -260,7 +260,8 @@ fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
         }
         (Some(nearest), _) => format!("; did you mean `{nearest}`?"),
         (None, 0) => "; there is none".to_owned(),
-        (None, 1..=MOST_LISTED) => format!("; there is {}", quoted(known)),
+        (None, 1) => format!("; there is {}", quoted(known)),
+        (None, 2..=MOST_LISTED) => format!("; there are {}", quoted(known)),
         (None, _) => String::new(),
     }
 }
@@ -321,7 +322,7 @@ mod tests {
         assert_eq!(message("floor", &[]), format!("{none}; there is none"));
         assert_eq!(
             message("floor", &["bottom", "turn"]),
-            format!("{none}; there is `bottom`, `turn`")
+            format!("{none}; there are `bottom`, `turn`")
         );
         assert_eq!(
             message("floor", &["flour", "turn"]),

@@ -3,7 +3,7 @@
 use std::fmt::{self, Formatter};
 
 use crate::assemble::State;
-use crate::diagnosis::{Diagnosis, Redundant, diagnose};
+use crate::diagnosis::{Redundant, redundant};
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::numbers::{fixed, short};
@@ -23,7 +23,7 @@ pub struct Explanation {
 struct Start {
     name: String,
     state: State,
-    found: Option<(Solution, Diagnosis)>,
+    found: Option<(Solution, Vec<Redundant>)>,
 }
 
 /// Decimals of values.
@@ -45,12 +45,11 @@ impl Explanation {
     pub fn at(mut self, name: &str, state: &State) -> (Self, Result<(), Error>) {
         let mut solver = Solver::new(&self.mechanism, SolverOptions::default());
         let solution = solver.solve(state.t, &state.q, &state.v);
-        let found = solution.and_then(|solution| {
-            let diagnosis = diagnose(&self.mechanism, state)?;
-            Ok((solution, diagnosis))
-        });
-        let (found, result) = match found {
-            Ok(found) => (Some(found), Ok(())),
+        let (found, result) = match solution {
+            Ok(solution) => {
+                let redundant = redundant(&self.mechanism, state, solution.rank);
+                (Some((solution, redundant)), Ok(()))
+            }
             Err(error) => (None, Err(error)),
         };
         self.start = Some(Start {
@@ -183,7 +182,8 @@ fn constraints(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
         "\nConstraints ({holonomic} holonomic, {others} nonholonomic) and A q̈ = b (eq. 5)"
     )?;
     for line in spec.equations.constraints {
-        let entry = line.starts_with("A[") || line.starts_with("b[");
+        // A row is led by its name, its entries of A and b are not.
+        let entry = (line.split_once(" = ")).is_some_and(|(left, _)| !left.contains(": "));
         writeln!(f, "  {}{line}", if entry { "    " } else { "" })?;
     }
     Ok(())
@@ -219,14 +219,10 @@ fn structure(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
 }
 
 fn at_start(f: &mut Formatter<'_>, spec: &Spec, start: &Start) -> fmt::Result {
-    let Some((solution, diagnosis)) = &start.found else {
+    let Some((solution, redundant)) = &start.found else {
         return Ok(());
     };
-    let redundant: Vec<String> = diagnosis
-        .redundant
-        .iter()
-        .map(Redundant::to_string)
-        .collect();
+    let redundant: Vec<String> = redundant.iter().map(Redundant::to_string).collect();
     let redundant = match redundant.is_empty() {
         true => "none".to_owned(),
         false => redundant.join("; "),

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::modes::{constraint_matrix, mass_matrix, measure, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// What a motor does at a state.
@@ -35,45 +35,71 @@ pub fn inverse(
     state: &State,
     motors: &[&str],
 ) -> Result<Vec<Effort>, Error> {
-    let mech: Prepared = mechanism.into();
-    let spec = mech.spec();
-    let mut driven = Vec::new();
-    for name in motors {
-        driven.extend(spec.constraint_indices(name)?);
-    }
-    driven.sort_unstable();
-    driven.dedup();
-    let State { t, q, v } = state;
-    let solution = Solver::new(&mech, SolverOptions::default()).solve(*t, q, v)?;
-    let units = units(&mass_matrix(&mech, state));
-    let rows = constraint_matrix(&mech, state);
-    let joints: Vec<usize> = (0..spec.m()).filter(|row| !driven.contains(row)).collect();
-    // In displacements that the joints allow no force of theirs does work: there the motors are alone.
-    let free = null_space(rows.select_rows(&joints), &units);
-    let mut acting = rows.select_rows(&driven);
-    let speeds = &acting * DVector::from_column_slice(v);
-    for (mut column, unit) in acting.column_iter_mut().zip(units.iter()) {
-        column *= *unit;
-    }
-    let strongest = acting.amax();
-    let force = DVector::from_vec(solution.ideal_force).component_mul(&units);
-    let mut efforts = DVector::zeros(driven.len());
-    if !free.is_empty() && !driven.is_empty() {
-        let acting = (acting * &free).transpose();
-        if let Ok(least) = acting
-            .svd(true, true)
-            .solve(&free.tr_mul(&force), IDLE * strongest)
-        {
-            efforts = least;
+    Inverse::new(mechanism, motors)?.efforts(state)
+}
+
+/// The efforts of motors at one state after the other, in buffers made once: see [`inverse`].
+#[derive(Debug, Clone)]
+pub struct Inverse {
+    solver: Solver,
+    /// The rows of the motors, in their order.
+    driven: Vec<usize>,
+}
+
+impl Inverse {
+    /// Of the constraints `motors` of `mechanism`, each by its name or by that of a row of it.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn new(mechanism: impl Into<Prepared>, motors: &[&str]) -> Result<Self, Error> {
+        let mech: Prepared = mechanism.into();
+        let mut driven = Vec::new();
+        for name in motors {
+            driven.extend(mech.spec().constraint_indices(name)?);
         }
+        driven.sort_unstable();
+        driven.dedup();
+        let solver = Solver::new(mech, SolverOptions::default());
+        Ok(Inverse { solver, driven })
     }
-    let all = driven.iter().zip(efforts.iter()).zip(speeds.iter());
-    let effort = |((row, effort), speed): ((&usize, &f64), &f64)| Effort {
-        name: spec.constraints[*row].name,
-        effort: *effort,
-        power: effort * speed,
-    };
-    Ok(all.map(effort).collect())
+
+    /// What the motors do at `state`, as [`inverse`] has it.
+    ///
+    /// # Errors
+    /// What [`Solver::solve`] reports.
+    pub fn efforts(&mut self, state: &State) -> Result<Vec<Effort>, Error> {
+        let State { t, q, v } = state;
+        let solution = self.solver.solve(*t, q, v)?;
+        let (mech, driven) = (self.solver.mechanism(), &self.driven);
+        let spec = mech.spec();
+        let units = units(&mass_matrix(mech, state));
+        let rows = constraint_matrix(mech, state);
+        let joints: Vec<usize> = (0..spec.m()).filter(|row| !driven.contains(row)).collect();
+        // In displacements that the joints allow no force of theirs does work: there the motors are alone.
+        let free = null_space(rows.select_rows(&joints), &units);
+        let mut acting = rows.select_rows(driven);
+        let speeds = &acting * DVector::from_column_slice(v);
+        measure(&mut acting, &units);
+        let strongest = acting.amax();
+        let force = DVector::from_vec(solution.ideal_force).component_mul(&units);
+        let mut efforts = DVector::zeros(driven.len());
+        if !free.is_empty() && !driven.is_empty() {
+            let acting = (acting * &free).transpose();
+            if let Ok(least) = acting
+                .svd(true, true)
+                .solve(&free.tr_mul(&force), IDLE * strongest)
+            {
+                efforts = least;
+            }
+        }
+        let all = driven.iter().zip(efforts.iter()).zip(speeds.iter());
+        let effort = |((row, effort), speed): ((&usize, &f64), &f64)| Effort {
+            name: spec.constraints[*row].name,
+            effort: *effort,
+            power: effort * speed,
+        };
+        Ok(all.map(effort).collect())
+    }
 }
 
 impl Prepared {

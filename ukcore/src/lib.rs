@@ -71,10 +71,10 @@ mod zero;
 
 pub use assemble::{State, assemble};
 pub use branches::{Assembled, branches};
-pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
+pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
-pub use inverse::{Effort, inverse};
+pub use inverse::{Effort, Inverse, inverse};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};

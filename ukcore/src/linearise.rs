@@ -1,7 +1,7 @@
 //! Exact derivatives of the accelerations: ∂q̈/∂(t, q, q̇, parameters) at a state.
 //!
-//! Emitted code runs on numbers with [`Slopes`], a sweep for several directions. Where there is an emitted elimination and its certificate holds, it is differentiated as it stands. Elsewhere the solution is
-//! differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b follow
+//! Emitted code runs on numbers with [`Slopes`], a sweep for several directions. Where there is an emitted elimination and its certificate
+//! holds, it is differentiated as it stands. Elsewhere the solution is differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b follow
 //!
 //! M dq̈ = dQ + dc − dM q̈ + dAᵀλ + Aᵀdλ,  A dq̈ = db − dA q̈,
 //!
@@ -210,8 +210,7 @@ impl Sweep {
 
     /// At (t, q, q̇), moving in the directions from `first` on.
     fn aim(&mut self, t: f64, q: &[f64], v: &[f64], first: usize) {
-        let unit = |own: usize| Slopes::new(|k| f64::from(u8::from(own == first + k)));
-        let seed = |x: f64, own: usize| Sloped::new(x, unit(own));
+        let seed = |x: f64, own: usize| Sloped::new(x, Slopes::unit(own, first));
         let (n, p) = (q.len(), self.mech.parameters().len());
         for i in 0..n {
             self.q[i] = seed(q[i], i);

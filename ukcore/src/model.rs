@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
-pub use crate::spec::{DURATION, StartOption, StartSpec};
+pub use crate::spec::{StartOption, StartSpec};
 pub use crate::start::{Chosen, StartOptions};
 
 /// What a mechanism says of itself beyond its declaration. Everything has a default; what is given serves the tools.
@@ -37,7 +37,7 @@ pub trait Model: Mechanism {
     /// Duration of a typical run from the default start, s.
     #[must_use]
     fn duration() -> f64 {
-        Self::starts().first().map_or(DURATION, |s| s.duration)
+        StartSpec::typical(Self::starts().first())
     }
 
     /// What is known about the motion from [`default_start`](Model::default_start) with default parameters, once for each end that is of
@@ -181,7 +181,7 @@ impl Entry {
     /// Duration of a typical run from the default start, s.
     #[must_use]
     pub fn duration(&self) -> f64 {
-        self.starts.first().map_or(DURATION, |s| s.duration)
+        StartSpec::typical(self.starts.first())
     }
 
     /// [`Model::references`].

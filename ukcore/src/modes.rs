@@ -64,8 +64,9 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let found = Linearisation::at(&mech, state)?;
     let n = mech.spec().n();
     let units = units(&mass_matrix(&mech, state));
+    let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
-    let tangent = tangent(&mech, state, &units);
+    let tangent = tangent(&mech, state, &jacobian, &units);
     if tangent.ncols() == 0 {
         return Ok(Vec::new());
     }
@@ -80,9 +81,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     }
     // Where a coordinate has hardly any inertia, as one of a quaternion near its zero, rounding is large in its own units: what holonomic
     // constraints do not allow is taken off once more.
-    let holonomic = constraint_matrix(&mech, state)
-        .rows(0, mech.spec().holonomic)
-        .into_owned();
+    let holonomic = jacobian.rows(0, mech.spec().holonomic).into_owned();
     let allowed = null_space(holonomic, &DVector::repeat(n, 1.0));
     let reduced = tangent.tr_mul(&(flow * &tangent));
     let values = reduced.complex_eigenvalues();
@@ -150,10 +149,40 @@ pub(crate) fn normalise(rows: &mut DMatrix<f64>) {
     }
 }
 
+/// Measures the columns of `rows` by `units`; those of velocities, which follow those of coordinates, by the same ones.
+pub(crate) fn measure(rows: &mut DMatrix<f64>, units: &DVector<f64>) {
+    for (k, mut column) in rows.column_iter_mut().enumerate() {
+        column *= units[k % units.len()];
+    }
+}
+
 /// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
 pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
     let n = rows.ncols();
     let (decomposed, pivots) = decompose(rows, units);
+    complement(n, &decomposed, &pivots)
+}
+
+/// [`null_space`] of displacements that leave the coordinates `held` where they are.
+pub(crate) fn null_space_holding(
+    held: &[usize],
+    rows: DMatrix<f64>,
+    units: &DVector<f64>,
+) -> DMatrix<f64> {
+    let m = rows.nrows();
+    let mut rows = rows.resize_vertically(m + held.len(), 0.0);
+    for (k, j) in held.iter().enumerate() {
+        rows[(m + k, *j)] = 1.0;
+    }
+    null_space(rows, units)
+}
+
+/// [`null_space`] of rows of length `n` that are [decomposed](decompose), with these pivots.
+pub(crate) fn complement(
+    n: usize,
+    decomposed: &ColPivQR<f64, Dyn, Dyn>,
+    pivots: &[f64],
+) -> DMatrix<f64> {
     let rank = pivots.iter().filter(|x| **x > INDEPENDENT).count();
     let mut turned = DMatrix::identity(n, n);
     decomposed.q_tr_mul(&mut turned);
@@ -166,9 +195,7 @@ pub(crate) fn decompose(
     mut rows: DMatrix<f64>,
     units: &DVector<f64>,
 ) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
-    for (k, mut column) in rows.column_iter_mut().enumerate() {
-        column *= units[k % units.len()];
-    }
+    measure(&mut rows, units);
     normalise(&mut rows);
     let decomposed = rows.transpose().col_piv_qr();
     let r = decomposed.r();
@@ -216,22 +243,27 @@ fn steady(
     Ok(())
 }
 
-/// An orthonormal basis of the deviations that meet the constraints, in `units`.
-fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>) -> DMatrix<f64> {
+/// An orthonormal basis of the deviations that meet the constraints, of which A is `jacobian`, in `units`.
+fn tangent(
+    mech: &Prepared,
+    state: &State,
+    jacobian: &DMatrix<f64>,
+    units: &DVector<f64>,
+) -> DMatrix<f64> {
     let spec = mech.spec();
     let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
     let mut rows = DMatrix::zeros(h + m, 2 * n);
-    let jacobian = constraint_matrix(mech, state);
     rows.view_mut((0, 0), (h, n))
         .copy_from(&jacobian.rows(0, h));
-    rows.view_mut((h, n), (m, n)).copy_from(&jacobian);
+    rows.view_mut((h, n), (m, n)).copy_from(jacobian);
     let sloped = mech.sloped();
     let mut rate = vec![Sloped::from_f64(0.0); m];
     let v: Vec<Sloped> = state.v.iter().copied().map(Sloped::from_f64).collect();
     for first in (0..n).step_by(Slopes::COUNT) {
-        let unit = |own: usize| Slopes::new(|k| f64::from(u8::from(own == first + k)));
         let q = state.q.iter().enumerate();
-        let q: Vec<Sloped> = q.map(|(i, x)| Sloped::new(*x, unit(i))).collect();
+        let q: Vec<Sloped> = q
+            .map(|(i, x)| Sloped::new(*x, Slopes::unit(i, first)))
+            .collect();
         sloped.residual_rate(Sloped::from_f64(state.t), &q, &v, &mut rate);
         for (row, rate) in rate.iter().enumerate() {
             for k in 0..Slopes::COUNT.min(n - first) {

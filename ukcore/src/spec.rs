@@ -79,6 +79,14 @@ pub struct StartSpec {
 /// Duration of a run, s, where no start says otherwise.
 pub const DURATION: f64 = 10.0;
 
+impl StartSpec {
+    /// How long a typical run from `start` lasts, s: [`DURATION`] from none.
+    #[must_use]
+    pub fn typical(start: Option<&StartSpec>) -> f64 {
+        start.map_or(DURATION, |start| start.duration)
+    }
+}
+
 /// An option of a start state. No option is called like a parameter of its model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartOption {

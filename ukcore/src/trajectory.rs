@@ -324,7 +324,8 @@ impl Trajectory {
         Ok(self.samples().map(|s| s.integrals[index]).collect())
     }
 
-    /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::spec::Spec::outputs).
+    /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::spec::Spec::outputs). Where one that contains a
+    /// reaction is not a number, [`lost_reactions`](crate::lost_reactions) tells why.
     #[must_use]
     pub fn outputs(&self) -> Vec<Vec<f64>> {
         let row = |s: Sample<'_>| {
@@ -344,7 +345,8 @@ impl Trajectory {
 
     /// Largest |E − E₀| over the samples, E = T + V, as a part of the largest energy exchanged: the largest T or |V − V₀|.
     ///
-    /// So the zero of V does not matter. Where nothing moves it is 0; it says something of the accuracy only where energy
+    /// So the zero of V does not matter. A change that may be rounding of the energies themselves is given as a part of these, where they are
+    /// larger: of what all but rests energy is exchanged at the level of rounding. Where nothing moves it is 0; it says something of the accuracy only where energy
     /// is conserved ([`Structure::conservative`](crate::spec::Structure::conservative)).
     #[must_use]
     pub fn energy_drift(&self) -> f64 {

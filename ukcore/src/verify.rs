@@ -10,16 +10,13 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use crate::assemble::{State, assemble};
-use crate::error::Error;
-use crate::manifold::Projector;
 use crate::mechanism::{Energy, Mechanism, Prepared};
 use crate::model::{Entry, StartOptions};
 use crate::nearby::nearby;
 use crate::random::Random;
 use crate::scalar::{Dual, Scalar};
-use crate::scan::{largest, largest_difference};
-use crate::simulate::START_BOUND;
-use crate::spec::GuessKind;
+use crate::simulate::Simulation;
+use crate::start::Said;
 
 mod derivatives;
 mod motion;
@@ -284,9 +281,11 @@ impl<'a> Verification<'a> {
         for spec in self.entry.starts {
             let name = spec.name;
             let started = self.entry.start(&self.mech, name, &StartOptions::new());
+            // As nearly on the constraints as a run wants it.
             let sound = started.and_then(|state| {
-                self.meets(&state)?;
-                Ok(state)
+                let begun = Simulation::new(&self.mech).start(state.clone());
+                let begun = begun.until(state.t).map_err(|failure| failure.error);
+                begun.map(|_| state)
             });
             match sound {
                 Ok(state) => {
@@ -313,64 +312,22 @@ impl<'a> Verification<'a> {
         begun
     }
 
-    /// Whether `state` meets the constraints as nearly as a run wants it.
-    fn meets(&self, state: &State) -> Result<(), Error> {
-        state.check(&self.mech)?;
-        let mut near = state.clone();
-        let mut projector = Projector::new(&self.mech);
-        projector.position(near.t, &mut near.q, &near.v)?;
-        projector.velocity(near.t, &near.q, &mut near.v)?;
-        let levels = [
-            ("position", &state.q, &near.q),
-            ("velocity", &state.v, &near.v),
-        ];
-        for (level, there, near) in levels {
-            if largest_difference(there, near) > START_BOUND * largest(there).max(1.0) {
-                let left = crate::assemble::residuals(&self.mech, state)?;
-                let values = if level == "position" {
-                    left.position
-                } else {
-                    left.velocity
-                };
-                let names = self
-                    .mech
-                    .spec()
-                    .constraints
-                    .iter()
-                    .map(|c| c.name.to_owned());
-                let constraints = names.zip(values).filter(|(_, r)| *r != 0.0).collect();
-                return Err(Error::OffConstraint { level, constraints });
-            }
-        }
-        Ok(())
-    }
-
     /// Whether a declared start keeps what it says with `=`.
     fn holds(&self, name: &str, state: &State, found: &mut Findings) {
-        let spec = self.mech.spec();
-        let Some(place) = spec.starts.iter().position(|s| s.name == name) else {
+        let Ok(Said { guess, held, .. }) = self.mech.said(name, &StartOptions::new()) else {
             return;
         };
-        let defaults: Vec<f64> = spec.starts[place]
-            .options
-            .iter()
-            .map(|o| o.default)
-            .collect();
-        self.mech.guess(place, &defaults, &mut |told| {
-            let coord = spec.coords[told.coordinate];
-            let (values, coord) = match told.kind {
-                GuessKind::Position => (&state.q, coord.to_owned()),
-                GuessKind::Velocity => (&state.v, format!("dot({coord})")),
-                // An angular velocity says nothing of one coordinate by itself.
-                GuessKind::Omega | GuessKind::Spin => return,
-            };
-            let is = values[told.coordinate];
-            if told.held && is != told.value {
-                let said = told.value;
-                let text = format!("start `{name}` has `{coord}` = {is}, but says {said}");
-                found.fault(format!("{name}, {coord}"), text);
-            }
-        });
+        // An angular velocity says nothing of one coordinate by itself.
+        let turning = |j: &usize| held.turning.iter().any(|(k, _)| k == j);
+        let rates = held.velocities.iter().filter(|j| !turning(j));
+        let coords = self.mech.spec().coords;
+        let positions =
+            (held.positions.iter()).map(|j| (coords[*j].to_owned(), state.q[*j], guess.q[*j]));
+        let rates = rates.map(|j| (format!("dot({})", coords[*j]), state.v[*j], guess.v[*j]));
+        for (coord, is, said) in positions.chain(rates).filter(|(_, is, said)| is != said) {
+            let text = format!("start `{name}` has `{coord}` = {is}, but says {said}");
+            found.fault(format!("{name}, {coord}"), text);
+        }
     }
 }
 

@@ -1,3 +1,13 @@
+#[doc(hidden)]
+#[allow(unused_macros, non_local_definitions)]
+macro_rules! __part_Broken {
+    (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
+        $($callback)* ! { @ parts[$($known)* { $($path)* } { ? } {}] $($rest)* }
+    };
+}
+#[doc(hidden)]
+#[allow(unused_imports)]
+pub(crate) use __part_Broken as Broken;
 /// A declaration with an error: its type, so that what uses it gives no second message.
 ///
 #[derive(Clone, Debug, PartialEq)]

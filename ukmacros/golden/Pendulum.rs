@@ -681,3 +681,13 @@ const _: () = {
         }
     }
 };
+#[doc(hidden)]
+#[allow(unused_macros, non_local_definitions)]
+macro_rules! __part_Pendulum {
+    (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
+        $($callback)* ! { @ parts[$($known)* { $($path)* } { ? } {}] $($rest)* }
+    };
+}
+#[doc(hidden)]
+#[allow(unused_imports)]
+pub(crate) use __part_Pendulum as Pendulum;

@@ -763,3 +763,13 @@ const _: () = {
         }
     }
 };
+#[doc(hidden)]
+#[allow(unused_macros, non_local_definitions)]
+macro_rules! __part_RoughBlock {
+    (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
+        $($callback)* ! { @ parts[$($known)* { $($path)* } { ? } {}] $($rest)* }
+    };
+}
+#[doc(hidden)]
+#[allow(unused_imports)]
+pub(crate) use __part_RoughBlock as RoughBlock;

@@ -35,22 +35,19 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     }
     let parsed = diag.len();
     model::merge(&mut decl, &table, &diag);
-    let before = parsed;
-    let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
+    let heard = if diag.len() == parsed { &diag } else { &quiet };
+    let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), heard);
     let faulty = decl.merged.faulty;
-    let trusted = !faulty && !diag.damaged() && diag.len() == before;
+    let trusted = !faulty && !diag.damaged() && diag.len() == parsed;
     let heard = if trusted { &diag } else { &quiet };
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
     if !faulty {
         expr::units(&decl, &model, &mut system, &diag);
     }
-    let handed = |faulty| {
-        decl.part
-            .then(|| emit::part(&decl, &source, &table, faulty))
-    };
+    let handed = |faulty| emit::part(&decl, &source, &table, faulty);
     if !faulty && let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
         let mut code = emit::emit(&decl, &model, &system, &constants, &analysis);
         code.extend(handed(false));

@@ -15,14 +15,14 @@ use crate::columns::residual;
 use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
-use crate::html::document;
+use crate::html::{document, joined, message};
 use crate::motion::Motion;
-use crate::numbers::short;
+use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
 
-/// The arguments of `animate`.
+/// The command-line arguments of the command `animate`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
     /// Model (see `list`)
@@ -154,26 +154,25 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
     let (mut file, mut films, mut about, mut failed) = (None, Vec::new(), None, None);
     for run in &runs {
-        let ready = run.start.ready(entry)?;
         let differs = run.differs.iter();
-        let label: Vec<String> = differs
-            .map(|(name, value)| format!("{name} = {value}"))
-            .collect();
-        let film = Film::new(&ready, label.join(", "))?;
+        let label = joined(differs.map(|(name, value)| format!("{name} = {value}")));
+        let ready = run.start.ready(entry);
+        let ready = ready.map_err(|failure| failure.of(&label))?;
+        let film = Film::new(&ready, label.clone())?;
         // Where the page cannot be written it is known before a long computation.
         if file.is_none() {
             file = Some(WholeFile::create(&path)?);
         }
         let (film, error) = taken(film, &ready, &run.motion, args.pictures)?;
         about.get_or_insert_with(|| foot(&ready, &run.motion));
-        failed = failed.or(error);
+        failed = failed.or(error.map(|error| Failure::from(error).of(&label)));
         films.push(film);
     }
     if let (Some(file), Some(about)) = (file, about) {
         file.finish_with(page(entry, films, &about)?)?;
     }
     output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
-    failed.map_or(Ok(()), |error| Err(error.into()))
+    failed.map_or(Ok(()), Err)
 }
 
 /// The page of motions of one model side by side, each with what it is called there, in so many pictures.
@@ -206,8 +205,8 @@ fn taken(
     motion: &Motion,
     pictures: u32,
 ) -> Result<(Film, Option<Error>), Failure> {
-    let every = motion.length(ready).abs() / f64::from(pictures - 1);
-    let (_, error) = motion.follow(ready, Some(every), |sample| {
+    let every = motion.interval(ready, None, pictures - 1)?;
+    let (_, error) = motion.follow(ready, every, |sample| {
         film.add(sample);
         ControlFlow::Continue(())
     })?;
@@ -231,10 +230,12 @@ fn kind(kind: ShapeKind) -> &'static str {
 pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = ready.mechanism.spec().params.iter();
     let parameters = parameters.zip(ready.mechanism.parameters());
-    let parameters = parameters.map(|(p, value)| format!("{} = {}", p.name, short(*value, 6)));
+    let parameters = parameters.map(|(p, value)| setting(p.name, *value, p.unit));
     let parameters: Vec<String> = parameters.collect();
-    let (start, method, tol) = (ready.start, motion.method, motion.tol);
-    let from = format!("From `{start}`, by {method} at tolerance {tol:e}.");
+    let (start, method) = (ready.start, motion.method);
+    let tolerance = motion.tolerance();
+    let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
+    let from = format!("From `{start}`, by {method}{tolerance}.");
     match parameters.is_empty() {
         true => from,
         false => format!("{from} Parameters: {}.", parameters.join(", ")),
@@ -279,7 +280,7 @@ pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<Strin
             label { input #traces type="checkbox" checked; " traces" }
         }
         div #strips {}
-        p.soft { @if several { "The first: " } (about) }
+        p.soft { @if several { "The first: " } (message(about)) }
         script type="application/json" id="data" { (PreEscaped(data)) }
         script { (PreEscaped(PLAYER)) }
     };

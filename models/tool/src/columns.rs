@@ -37,7 +37,9 @@ impl Columns {
             let exact = all.iter().filter(|(known, _)| known == name);
             let mut found: Vec<_> = exact.cloned().collect();
             if found.is_empty() {
-                let members = all.iter().filter(|(known, _)| family(known) == name);
+                let members = all
+                    .iter()
+                    .filter(|(known, _)| family(known).is_some_and(|f| f == name));
                 found.extend(members.cloned());
             }
             if found.is_empty() {
@@ -70,14 +72,14 @@ impl Columns {
         }
     }
 
-    /// Their names.
+    /// The names of the quantities, as in tables.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.chosen.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Their names with units, as far as these are known.
+    /// The units of the quantities; nothing where none is known.
     #[must_use]
-    pub(crate) fn labels(&self) -> Vec<String> {
+    pub(crate) fn units(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
         let unit = |source: &Source| match *source {
             Source::Time => "s".to_owned(),
@@ -91,14 +93,20 @@ impl Columns {
             Source::Energy if !spec.coordinate_units.is_empty() => "J".to_owned(),
             _ => String::new(),
         };
-        let label = |(name, source): &(String, Source)| match unit(source).as_str() {
-            "" => name.clone(),
-            unit => format!("{name} ({unit})"),
-        };
-        self.chosen.iter().map(label).collect()
+        self.chosen.iter().map(|(_, source)| unit(source)).collect()
     }
 
-    /// The same of `mechanism`, which has other parameters.
+    /// The names of the quantities, with units behind where these are known.
+    #[must_use]
+    pub(crate) fn labels(&self) -> Vec<String> {
+        let label = |(name, unit): (&str, String)| match unit.as_str() {
+            "" => name.to_owned(),
+            unit => format!("{name} ({unit})"),
+        };
+        self.names().zip(self.units()).map(label).collect()
+    }
+
+    /// The same quantities of `mechanism`, which has other parameters.
     #[must_use]
     pub(crate) fn with(&self, mechanism: &Prepared) -> Self {
         Columns {
@@ -107,7 +115,7 @@ impl Columns {
         }
     }
 
-    /// Their values at `sample`.
+    /// The values of the quantities at `sample`.
     #[must_use]
     pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {
         let Sample { t, q, v, integrals } = sample;
@@ -154,10 +162,8 @@ fn all(mechanism: &Prepared) -> Vec<(String, Source)> {
 }
 
 /// `x` of `x[1][2]`, and `dot(x)` of `dot(x[1])`.
-fn family(name: &str) -> String {
-    let bare = |name: &str| name.split_once('[').map(|(family, _)| family.to_owned());
-    match name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')')) {
-        Some(inner) => bare(inner).map_or_else(String::new, |family| format!("dot({family})")),
-        None => bare(name).unwrap_or_default(),
-    }
+fn family(name: &str) -> Option<String> {
+    let (family, _) = name.split_once('[')?;
+    let end = if family.starts_with("dot(") { ")" } else { "" };
+    Some(format!("{family}{end}"))
 }

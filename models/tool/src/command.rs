@@ -21,10 +21,11 @@ use crate::run::{RunArgs, run};
 use crate::stability::{ModelArgs, of_model};
 use crate::sweep::{SweepArgs, sweep};
 
-/// The exit codes, and how values are written: the end of `--help`.
+/// The end of `--help`: which exit codes there are, and how values are written.
 pub const HELP: &str = "\
-Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong; 130 interrupted.
-Values may have units: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in the parameter's own unit.";
+Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong;
+3 some runs of a sweep failed; 130 interrupted.
+Values may have units: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in SI units: kg, m, s, rad.";
 
 /// A command of the tool. A program with more commands flattens it into its own.
 #[derive(Debug, Subcommand)]
@@ -54,7 +55,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does what is asked, with these models.
+    /// Does what the command asks for, with `models` as those that it may name.
     ///
     /// # Errors
     /// [`Failure`], whose display is a line for standard error and whose [`code`](Failure::code) is the one to exit with.
@@ -94,7 +95,7 @@ pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
 
-/// Tells of a failure on standard error; the code to end the program with.
+/// Writes a failure to standard error, if there is one, and returns the code to end the program with.
 #[must_use]
 pub fn exit(result: Result<(), Failure>) -> ExitCode {
     let Err(failure) = result else {
@@ -116,7 +117,7 @@ fn program() -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// The model called `id`.
+/// Finds the model called `id` on the command line.
 ///
 /// # Errors
 /// [`Failure::Usage`] with the nearest name.
@@ -133,11 +134,22 @@ pub fn find<'a>(models: &'a [Entry], id: &str) -> Result<&'a Entry, Failure> {
     })
 }
 
-/// Reads the path of a file or directory, which must not be empty.
+/// Reads the path of a file or directory: neither nothing, nor `-`.
 ///
 /// # Errors
 /// What is wrong.
 pub fn path(text: &str) -> Result<PathBuf, String> {
+    match text {
+        "-" => Err("standard output is for `--csv` alone; name a file".to_owned()),
+        _ => path_or_stdout(text),
+    }
+}
+
+/// Reads the path of a file, or `-`, which is standard output.
+///
+/// # Errors
+/// What is wrong.
+pub(crate) fn path_or_stdout(text: &str) -> Result<PathBuf, String> {
     if text.is_empty() {
         return Err("a path is needed".to_owned());
     }

@@ -1,15 +1,14 @@
 //! Curves of a motion as they are drawn by `run --plot`.
 
-use std::path::Path;
-
 use ukcore::Prepared;
 use ukcore::simulate::Sample;
 
 use crate::columns::Columns;
+use crate::command::path;
 use crate::failure::Failure;
 use crate::html::joined;
 use crate::output::WholeFile;
-use crate::plot::{Chart, Legend, Series, round_range};
+use crate::plot::{Chart, Legend, Series, legend_height, round_range, stacked};
 
 /// More points than a picture shows.
 const MOST: usize = 20_000;
@@ -66,46 +65,45 @@ impl<T> Thinned<T> {
 #[derive(Debug)]
 pub(crate) struct Curves {
     file: WholeFile,
-    /// Horizontal quantities, and vertical ones.
+    /// Horizontal and vertical quantities, of each curve one.
     over: Columns,
     of: Columns,
     rows: Thinned<(Vec<f64>, Vec<f64>)>,
 }
 
+/// Height of a panel that stands alone, and of one of several, below its legend, in pixels.
+const HEIGHTS: (u32, u32) = (460, 300);
+/// Curves whose names are written at an axis; those of more stand in the legend alone.
+const NAMED: usize = 4;
+
 impl Curves {
     /// What is asked for by a file's name and curves: `NAME` over time, or `X,Y`, which is Y over X.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for unknown names and curves of different kinds; [`Failure::Failed`] where the file cannot be written.
+    /// [`Failure::Usage`] for unknown names; [`Failure::Failed`] where the file cannot be written.
     pub(crate) fn new(mechanism: &Prepared, asked: &[String]) -> Result<Self, Failure> {
-        let [path, curves @ ..] = asked else {
+        let [file, curves @ ..] = asked else {
             return Err(Failure::Usage("`--plot` needs a file".to_owned()));
         };
-        let pairs: Vec<(&str, &str)> = curves.iter().filter_map(|c| c.split_once(',')).collect();
-        let (over, of) = if pairs.is_empty() {
-            (
-                Columns::named(mechanism, &["t"])?,
-                Columns::named(mechanism, curves)?,
-            )
-        } else if pairs.len() == curves.len() {
-            let (x, y): (Vec<&str>, Vec<&str>) = pairs.into_iter().unzip();
-            let (over, of) = (
-                Columns::named(mechanism, &x)?,
-                Columns::named(mechanism, &y)?,
-            );
-            if (over.names().count(), of.names().count()) != (x.len(), y.len()) {
-                let message = "a curve `X,Y` is of two numbers; choose members of families, such as `x[0],y[0]`";
-                return Err(Failure::Usage(message.to_owned()));
+        let file = path(file).map_err(|e| Failure::Usage(format!("`--plot`: {e}")))?;
+        let (mut over, mut of) = (Vec::new(), Vec::new());
+        for curve in curves {
+            let (x, y) = curve.split_once(',').unwrap_or(("t", curve));
+            let [x, y] = [x, y].map(|name| Columns::named(mechanism, &[name]));
+            let (x, y) = (x?, y?);
+            if curve.contains(',') && (x.names().count(), y.names().count()) != (1, 1) {
+                let message = format!(
+                    "a curve `X,Y` is of two numbers; choose members of the families in `{curve}`, such as `x[0],y[0]`"
+                );
+                return Err(Failure::Usage(message));
             }
-            (over, of)
-        } else {
-            let message = "curves over time, `NAME`, and curves of one quantity over another, `X,Y`, do not go into one picture";
-            return Err(Failure::Usage(message.to_owned()));
-        };
+            over.extend(y.names().flat_map(|_| x.names().map(str::to_owned)));
+            of.extend(y.names().map(str::to_owned));
+        }
         Ok(Curves {
-            file: WholeFile::create(Path::new(path))?,
-            over,
-            of,
+            file: WholeFile::create(&file)?,
+            over: Columns::named(mechanism, &over)?,
+            of: Columns::named(mechanism, &of)?,
             rows: Thinned::new(MOST),
         })
     }
@@ -115,46 +113,65 @@ impl Curves {
             .push((self.over.values(sample), self.of.values(sample)));
     }
 
-    /// Draws them.
+    /// Draws them, in panels of curves that are alike in what they are over and in their units.
     ///
     /// # Errors
     /// [`Failure::Failed`] where the file cannot be written.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let rows = self.rows.finish();
-        let across = self.over.names().count();
-        let curve = |k: usize| {
-            let points = rows.iter().map(move |(x, y)| (x[k % across], y[k]));
-            // Where something is not finite there is a gap at least.
-            points.filter(|(x, y)| x.is_finite() && y.is_finite())
+        let (over, of) = (self.over.labels(), self.of.labels());
+        let kinds: Vec<_> = (self.over.units().into_iter())
+            .zip(self.of.units())
+            .zip(self.over.names().map(|name| name == "t"))
+            .collect();
+        let mut panels: Vec<Vec<usize>> = Vec::new();
+        for k in 0..of.len() {
+            match panels.iter_mut().find(|panel| kinds[panel[0]] == kinds[k]) {
+                Some(panel) => panel.push(k),
+                None => panels.push(vec![k]),
+            }
+        }
+        let height = if panels.len() > 1 {
+            HEIGHTS.1
+        } else {
+            HEIGHTS.0
         };
-        let labels = self.of.labels();
-        let single = labels.len() == 1;
-        let series = labels.iter().enumerate().map(|(k, label)| {
-            let label = if single { "" } else { label };
-            Series::new(label, k, curve(k).collect())
-        });
-        let series: Vec<Series> = series.collect();
-        let x = series
-            .iter()
-            .flat_map(|s| s.points.iter().map(|p| p.0))
-            .collect::<Vec<f64>>();
-        let mut axes = self.over.labels();
-        axes.dedup();
-        let chart = Chart {
-            legend: if single { Legend::None } else { Legend::Above },
-            size: (760, 460),
-            ..Chart::new(
-                joined(axes),
-                if labels.len() > 4 {
-                    String::new()
-                } else {
-                    joined(labels)
-                },
-                round_range(x.into_iter()),
-                series,
-            )
+        let chart = |panel: &Vec<usize>| {
+            let single = panel.len() == 1;
+            // The first lies on top, and comes first in the legend.
+            let series = panel.iter().rev().map(|&k| {
+                let points = rows.iter().map(|(x, y)| (x[k], y[k]));
+                // Where something is not finite there is a gap at least.
+                let points: Vec<_> = points
+                    .filter(|(x, y)| x.is_finite() && y.is_finite())
+                    .collect();
+                let label = if single { "" } else { &of[k] };
+                Series {
+                    // A motion without length has no line.
+                    dots: if points.len() == 1 { 3 } else { 0 },
+                    ..Series::new(label, k, points)
+                }
+            });
+            let series: Vec<Series> = series.collect();
+            let x = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
+            let mut across: Vec<String> = panel.iter().map(|&k| over[k].clone()).collect();
+            across.dedup();
+            let up = match panel.len() {
+                ..=NAMED => joined(panel.iter().map(|&k| of[k].clone())),
+                _ => kinds[panel[0]].0.1.clone(),
+            };
+            let (legend, above) = match single {
+                true => (Legend::None, 0),
+                false => (Legend::Above, legend_height(panel.len())),
+            };
+            Chart {
+                legend,
+                size: (760, height + above),
+                ..Chart::new(joined(across), up, round_range(x), series.clone())
+            }
         };
-        self.file.finish_with(chart.svg()?)
+        let charts: Vec<Chart> = panels.iter().map(chart).collect();
+        self.file.finish_with(stacked(&charts)?)
     }
 }
 

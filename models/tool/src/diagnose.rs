@@ -8,12 +8,12 @@ use ukcore::model::Entry;
 use ukcore::{Assembled, State, diagnose as diagnosis_of, diagnose_along};
 
 use crate::failure::Failure;
-use crate::motion::Motion;
+use crate::motion::{INTERVALS, Motion};
 use crate::numbers::full;
 use crate::output;
 use crate::scene::{Scene, Start};
 
-/// The arguments of `diagnose`.
+/// The command-line arguments of the command `diagnose`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct DiagnoseArgs {
     /// The mechanism and its start
@@ -27,15 +27,15 @@ pub struct DiagnoseArgs {
 /// Prints the diagnosis of the start, then that of the state of a run that is nearest to a singular position.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where the equations cannot be solved or the run ends early:
-/// what was found up to there is printed all the same.
+/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where the equations cannot be solved or the run ends
+/// early: what was found up to there is printed all the same.
 pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let mech = &ready.mechanism;
     let here = diagnosis_of(mech, &ready.state)?;
     let branches = otherwise(ready.entry, &args.scene.start)?;
     let mut states: Vec<State> = Vec::new();
-    let every = Some(args.motion.interval(&ready)).filter(|interval| *interval > 0.0);
+    let every = args.motion.interval(&ready, None, INTERVALS)?;
     let (_, error) = args.motion.follow(&ready, every, |sample| {
         states.push(sample.to_state());
         ControlFlow::Continue(())

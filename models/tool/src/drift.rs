@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use ukcore::Trajectory;
 use ukcore::spec::Spec;
 
-/// The worst of all samples of a motion.
+/// How far a motion leaves its constraints and its energy at the worst of its samples.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Drift {
     /// Largest |φ| of the holonomic constraints, in their units.
@@ -16,7 +16,7 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// The worst of the samples of `trajectory`.
+    /// Measures the samples of `trajectory`.
     #[must_use]
     pub fn of(trajectory: &Trajectory) -> Self {
         let mut measured = ukcore::simulate::Drift::new(trajectory.mechanism());
@@ -24,7 +24,7 @@ impl Drift {
         Drift::measured(&measured, trajectory.spec())
     }
 
-    /// The worst of samples that came one by one, of a mechanism with this `spec`.
+    /// Reads what was measured of samples that came one by one, of a mechanism with this `spec`.
     #[must_use]
     pub fn measured(measured: &ukcore::simulate::Drift, spec: &Spec) -> Self {
         let residual = measured.residual();

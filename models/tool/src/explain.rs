@@ -10,14 +10,21 @@ use crate::failure::Failure;
 use crate::output;
 use crate::scene::Scene;
 
-/// The arguments of `explain`.
+/// The command-line arguments of the command `explain`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
     /// The mechanism and its start
     #[command(flatten)]
     pub scene: Scene,
-    /// Print the code that runs instead: of FUNCTION (`dynamics`, `acceleration`, …), or of all of them
-    #[arg(long, value_name = "FUNCTION", num_args = 0..=1, default_missing_value = "")]
+    /// Print the code that runs instead, which is the same for any parameters and start: of FUNCTION (`dynamics`, `acceleration`, …), or
+    /// of all of them
+    #[arg(
+        long,
+        value_name = "FUNCTION",
+        num_args = 0..=1,
+        default_missing_value = "",
+        conflicts_with_all = ["settings", "start", "guesses", "hold"]
+    )]
     pub code: Option<String>,
 }
 
@@ -42,7 +49,13 @@ pub fn explain(models: &[Entry], args: &ExplainArgs) -> Result<(), Failure> {
         }
         Err(failure) => return Err(failure),
     };
-    output::to_stdout(|out| write!(out, "{}: {}\n\n{explanation}", entry.id, entry.summary))?;
+    // The explanation begins with what the declaration says of itself.
+    let end = if entry.summary.is_empty() {
+        "\n\n"
+    } else {
+        ": "
+    };
+    output::to_stdout(|out| write!(out, "{}{end}{explanation}", entry.id))?;
     result
 }
 

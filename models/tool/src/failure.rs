@@ -6,20 +6,26 @@ use std::path::Path;
 
 use ukcore::Error;
 
+use crate::numbers::full;
+
 /// Exit code of a run that failed: the motion could not be computed, or a file not be written.
 pub const FAILED: u8 = 1;
 /// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
 pub const USAGE: u8 = 2;
+/// Exit code of a sweep of which some runs failed: its table is whole, and tells of each what it failed by.
+pub const PARTLY: u8 = 3;
 /// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
 pub const INTERRUPTED: u8 = 130;
 
-/// Why a command ends early.
+/// Why a command does not end with exit code 0, in words for standard error.
 #[derive(Debug)]
 pub enum Failure {
     /// The command line is wrong (exit code 2).
     Usage(String),
     /// The command is right and failed (exit code 1).
     Failed(String),
+    /// All was done, and some runs of many failed (exit code 3).
+    Partly(String),
     /// The user has interrupted the run (exit code 130).
     Interrupted(String),
     /// Whoever read our output has stopped reading (`uk list | head`): nobody is left to tell, and nothing went wrong.
@@ -27,26 +33,42 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit code, as documented by `--help`.
+    /// The exit code to end the program with, as documented by `--help`.
     pub fn code(&self) -> u8 {
         match self {
             Failure::Usage(_) => USAGE,
             Failure::Failed(_) => FAILED,
+            Failure::Partly(_) => PARTLY,
             Failure::Interrupted(_) => INTERRUPTED,
             Failure::ReaderGone => 0,
         }
     }
 
-    /// What went wrong, without saying that something did.
+    /// What went wrong, without the word `error:` that [`Display`](fmt::Display) puts before it.
     #[must_use]
     pub fn message(&self) -> String {
         match self {
-            Failure::Usage(message) | Failure::Failed(message) => message.clone(),
+            Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
+                message.clone()
+            }
             other => other.to_string(),
         }
     }
 
-    /// A failure to write standard output.
+    /// The same failure, with the run that it is of before its message; as it is where `run` is empty.
+    pub(crate) fn of(self, run: &str) -> Self {
+        let told = |message| match run {
+            "" => message,
+            _ => format!("{run}: {message}"),
+        };
+        match self {
+            Failure::Usage(message) => Failure::Usage(told(message)),
+            Failure::Failed(message) => Failure::Failed(told(message)),
+            other => other,
+        }
+    }
+
+    /// The failure that an error in writing standard output is; none, if its reader is gone.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Failure::ReaderGone
@@ -55,7 +77,7 @@ impl Failure {
         }
     }
 
-    /// A failure to write a file.
+    /// The failure that an error in writing the file `path` is.
     pub fn file(path: &Path, error: &io::Error) -> Self {
         Failure::Failed(format!("cannot write {}: {error}", path.display()))
     }
@@ -65,7 +87,9 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Usage(message) | Failure::Failed(message) => write!(f, "error: {message}"),
+            Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
+                write!(f, "error: {message}")
+            }
             Failure::Interrupted(message) => f.write_str(message),
             Failure::ReaderGone => f.write_str("the reader of standard output is gone"),
         }
@@ -75,13 +99,36 @@ impl fmt::Display for Failure {
 /// Names and settings come from the command line, so they are usage errors; all else failed in the computation.
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
+        let message = told(&error);
         match error {
-            Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
-                Failure::Usage(error.to_string())
-            }
-            _ => Failure::Failed(error.to_string().replace("`max_steps`", "`--max-steps`")),
+            Error::UnknownName { .. } | Error::InvalidSetting { .. } => Failure::Usage(message),
+            _ => Failure::Failed(message),
         }
     }
+}
+
+/// The message of an error, with settings by the names that they have on the command line.
+fn told(error: &Error) -> String {
+    let message = match error {
+        Error::At { t, source, .. } => format!("at t = {}: {}", full(*t), told(source)),
+        Error::InvalidSetting { what, reason } => match *what {
+            "t_end" => format!("`--until` {reason}"),
+            "every" => format!("`--every` {reason}"),
+            "method" => format!("`--method` {reason}"),
+            "step" => format!("the step of `--method rattle=STEP` {reason}"),
+            // Which one stands in the reason.
+            "parameter" => reason.clone(),
+            _ => error.to_string(),
+        },
+        other => other.to_string(),
+    };
+    [
+        ("`max_steps`", "`--max-steps`"),
+        ("`Method::Dop853`", "`--method dop853`"),
+        ("`Method::Radau5`", "`--method radau5`"),
+    ]
+    .iter()
+    .fold(message, |text, (name, option)| text.replace(name, option))
 }
 
 #[cfg(test)]
@@ -94,10 +141,24 @@ mod tests {
         let failure = Failure::from(unknown);
         assert_eq!(failure.code(), USAGE);
         assert!(failure.to_string().contains("did you mean `uchain`"));
-        assert_eq!(
-            Failure::from(Error::TooManySteps { steps: 3 }).code(),
-            FAILED
-        );
+        let steps = Failure::from(Error::TooManySteps { steps: 3 });
+        assert_eq!(steps.code(), FAILED);
+        // As the command line has them.
+        for name in ["`--max-steps`", "`--method radau5`"] {
+            assert!(steps.message().contains(name), "{steps}");
+        }
+        let late = Error::At {
+            t: 0.5,
+            q: Vec::new(),
+            v: Vec::new(),
+            source: Box::new(Error::InvalidSetting {
+                what: "t_end",
+                reason: "is 1, so far that …".to_owned(),
+            }),
+        };
+        let late = Failure::from(late);
+        assert_eq!(late.message(), "at t = 0.5: `--until` is 1, so far that …");
+        assert_eq!(late.code(), FAILED);
     }
 
     #[test]

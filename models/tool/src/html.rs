@@ -10,7 +10,7 @@ pub fn fixed(value: f64, digits: usize) -> String {
     numbers::fixed(value, digits).replace('-', "−")
 }
 
-/// A number with its sign.
+/// A number with `digits` decimals and its sign, `+` or a real minus; what rounds to zero has none.
 #[must_use]
 pub fn signed(value: f64, digits: usize) -> String {
     let text = fixed(value, digits);
@@ -21,7 +21,7 @@ pub fn signed(value: f64, digits: usize) -> String {
     }
 }
 
-/// A small number as a·10ᵇ.
+/// A number as a·10ᵇ with two digits, as HTML; `∞` and words for what is not finite.
 #[must_use]
 pub fn power_of_ten(value: f64) -> Markup {
     if !value.is_finite() {
@@ -36,7 +36,17 @@ pub fn power_of_ten(value: f64) -> Markup {
     }
 }
 
-/// Values with commas between them.
+/// A message of a command as HTML: names between backticks are code.
+#[must_use]
+pub fn message(text: &str) -> Markup {
+    html! {
+        @for (k, part) in text.split('`').enumerate() {
+            @if k % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
+}
+
+/// The values as one text, with commas between them.
 #[must_use]
 pub fn joined(values: impl IntoIterator<Item = String>) -> String {
     values.into_iter().collect::<Vec<_>>().join(", ")
@@ -191,7 +201,7 @@ pub struct Section {
     pub body: Markup,
 }
 
-/// A page.
+/// A page of numbered sections that are linked at its top, in the style of reports.
 #[derive(Debug, Clone)]
 pub struct Page<'a> {
     /// Its title and first heading.
@@ -207,7 +217,7 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The text of the HTML file.
+    /// Writes the page as the text of an HTML file that needs nothing but itself and the files it names.
     #[must_use]
     pub fn render(&self) -> String {
         let shown = || self.sections.iter().filter(|s| !s.body.0.is_empty());
@@ -269,6 +279,10 @@ mod tests {
 
     #[test]
     fn what_html_reserves_is_escaped() {
+        assert_eq!(
+            message("`a<b` & c").into_string(),
+            "<code>a&lt;b</code> &amp; c"
+        );
         let figure = figure("a.svg", "x < 1", "b & c").into_string();
         assert!(
             figure.contains("alt=\"x &lt; 1\"") && figure.contains("b &amp; c"),

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::discard_unfinished;
 
-/// Whether the user has asked for an end.
+/// A flag that is set once the user has asked the program to end, by Ctrl-C or SIGTERM.
 #[derive(Debug, Clone, Copy)]
 pub struct Interrupt(&'static AtomicBool);
 
@@ -35,14 +35,14 @@ impl Interrupt {
         }
     }
 
-    /// One that never comes, for a computation that nobody interrupts.
+    /// A flag that is never set, for a computation that nobody interrupts.
     #[must_use]
     pub fn never() -> Self {
         static NEVER: AtomicBool = AtomicBool::new(false);
         Interrupt(&NEVER)
     }
 
-    /// Whether it has come.
+    /// Whether the user has asked the program to end.
     #[must_use]
     pub fn is_set(self) -> bool {
         self.0.load(Ordering::Relaxed)

@@ -5,15 +5,15 @@ use std::ops::ControlFlow;
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::{Effort, Error, inverse as efforts_at};
+use ukcore::{Effort, Error, Inverse};
 
 use crate::failure::Failure;
-use crate::motion::{self, Motion};
+use crate::motion::{self, INTERVALS, Motion};
 use crate::numbers::{full, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
-/// The arguments of `inverse`.
+/// The command-line arguments of the command `inverse`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct InverseArgs {
     /// The mechanism and its start
@@ -26,7 +26,7 @@ pub struct InverseArgs {
     #[arg(long = "motor", value_name = "NAME", value_delimiter = ',')]
     pub motors: Vec<String>,
     /// Sample at this interval; a thousandth of the run if absent
-    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Print the efforts and powers at all samples as CSV instead
     #[arg(long)]
@@ -59,11 +59,12 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
             ready.entry.id
         )));
     }
+    let mut inverse = Inverse::new(mech, &motors)?;
     let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
     let mut broken: Option<Error> = None;
-    let every = args.every.unwrap_or_else(|| args.motion.interval(&ready));
-    let (_, error) = args.motion.follow(&ready, Some(every), |sample| {
-        match efforts_at(mech, &sample.to_state(), &motors) {
+    let every = args.motion.interval(&ready, args.every, INTERVALS)?;
+    let (_, error) = args.motion.follow(&ready, every, |sample| {
+        match inverse.efforts(&sample.to_state()) {
             Ok(efforts) => samples.push((sample.t, efforts)),
             Err(error) => broken = Some(error),
         }

@@ -21,8 +21,8 @@
 //! uktool::main!(Cart);
 //! ```
 //!
-//! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that shows
-//! it. A mechanism that implements [`ukcore::model::Model`] has further starts and references of its own besides.
+//! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that
+//! shows it. A mechanism that implements [`ukcore::model::Model`] has further starts and references of its own besides.
 //!
 //! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep), [`animate`](animate::animate),
 //! [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse), [`explain`](explain::explain),

@@ -5,11 +5,8 @@ use std::io::{self, Write};
 use ukcore::model::Entry;
 
 use crate::failure::Failure;
-use crate::numbers::{short, width};
+use crate::numbers::{lines, setting, short, width};
 use crate::output;
-
-/// Width of a list of parameters; with what stands before them, lines are within 100 characters.
-const LINE: usize = 84;
 
 /// Prints every model with its starts, their options, and the parameters, all with their defaults.
 ///
@@ -22,14 +19,20 @@ pub fn list(models: &[Entry]) -> Result<(), Failure> {
 
 /// `wide` is the width of the column of names.
 fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
-    writeln!(out, "{:<wide$}  {}", model.id, model.summary)?;
+    let line = format!("{:<wide$}  {}", model.id, model.summary);
+    writeln!(out, "{}", line.trim_end())?;
     for (i, start) in model.starts.iter().enumerate() {
         let default = if i == 0 { " (default)" } else { "" };
-        writeln!(out, "    start {}{default}: {}", start.name, start.doc)?;
+        let duration = short(start.duration, 8);
+        let head = format!("    start {}{default}, for {duration} s", start.name);
+        match start.doc {
+            "" => writeln!(out, "{head}")?,
+            doc => writeln!(out, "{head}: {doc}")?,
+        }
         for option in start.options {
-            let value = short(option.default, 6);
-            let setting = format!("{} = {value} {}", option.name, option.unit);
-            writeln!(out, "        {:<24}{}", setting.trim_end(), option.doc)?;
+            let setting = setting(option.name, option.default, option.unit);
+            let line = format!("        {setting:<24}{}", option.doc);
+            writeln!(out, "{}", line.trim_end())?;
         }
     }
     if model.starts.is_empty() {
@@ -41,35 +44,21 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
         });
         paragraph(out, "guess", coordinates)?;
     }
-    let params = model.mechanism.spec().params.iter().map(|p| {
-        let setting = format!("{} = {} {}", p.name, short(p.default, 8), p.unit);
-        setting.trim_end().to_owned()
-    });
-    paragraph(out, "parameters", params)?;
+    let params = model.mechanism.spec().params.iter();
+    paragraph(
+        out,
+        "parameters",
+        params.map(|p| setting(p.name, p.default, p.unit)),
+    )?;
     writeln!(out)
 }
 
-/// Entries with commas between them, in lines of at most [`LINE`] characters where the entries allow it.
 fn paragraph(
     out: &mut dyn Write,
     head: &str,
     entries: impl Iterator<Item = String>,
 ) -> io::Result<()> {
-    let mut lines: Vec<String> = Vec::new();
-    for entry in entries {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 2 + entry.chars().count() <= LINE => {
-                *line += ", ";
-                *line += &entry;
-            }
-            Some(line) => {
-                line.push(',');
-                lines.push(entry);
-            }
-            None => lines.push(entry),
-        }
-    }
-    for (i, line) in lines.iter().enumerate() {
+    for (i, line) in lines(entries).iter().enumerate() {
         let head = if i == 0 { head } else { "" };
         writeln!(out, "    {head:<10} {line}")?;
     }

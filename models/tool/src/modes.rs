@@ -8,11 +8,11 @@ use ukcore::model::Entry;
 use ukcore::{Error, Mode, Stability, State, equilibrium, modes as modes_of};
 
 use crate::failure::Failure;
-use crate::numbers::{full, width};
+use crate::numbers::{fixed, full, lines, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
-/// The arguments of `modes`.
+/// The command-line arguments of the command `modes`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ModesArgs {
     /// The mechanism, and where the search begins
@@ -29,8 +29,8 @@ const STILL: f64 = 1e-6;
 /// Prints the rest position next to the start, and its modes, slowest first.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where there is no rest position, or no linear motion about
-/// it.
+/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where there is no rest position, or no linear motion
+/// about it.
 pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let failed = |error| match error {
@@ -46,9 +46,15 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
     output::to_stdout(|out| {
         place(out, &ready, &state, stability)?;
+        limits(out, &ready, &state)?;
         let still = Mode::STILL * found.iter().map(Mode::size).fold(0.0, f64::max);
-        found
-            .iter()
+        // A displacement that costs nothing has an eigenvalue of 0 twice, with one shape.
+        let again = |k: usize| {
+            let same = |other: &Mode| other.size() <= still && other.shape == found[k].shape;
+            found[k].size() <= still && found[..k].iter().any(same)
+        };
+        let told = (0..found.len()).filter(|k| !again(*k));
+        told.map(|k| &found[k])
             .try_for_each(|mode| show(out, &ready, mode, still))
     })
 }
@@ -72,7 +78,11 @@ fn place(
     let names = ready.mechanism.spec().coords;
     let wide = width(names.iter().copied());
     let largest = |values: &[f64]| values.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
-    let (size, speed) = (largest(&state.q), largest(&state.v));
+    // A rest position at 0 is small beside the start.
+    let (size, speed) = (
+        largest(&[&state.q[..], &ready.state.q].concat()),
+        largest(&state.v),
+    );
     for (i, ((name, q), v)) in names.iter().zip(&state.q).zip(&state.v).enumerate() {
         let rate = if *v == 0.0 {
             String::new()
@@ -84,6 +94,37 @@ fn place(
         writeln!(out, "{}", line.trim_end())?;
     }
     writeln!(out)
+}
+
+/// What a linear motion about `state` leaves out.
+fn limits(out: &mut dyn Write, ready: &Ready<'_>, state: &State) -> io::Result<()> {
+    let spec = ready.mechanism.spec();
+    let mut told = Vec::new();
+    if !spec.structure.scleronomic {
+        let t = full(state.t);
+        told.push(format!(
+            "what depends on time is taken as it is at t = {t} s"
+        ));
+    }
+    let mut values = vec![0.0; spec.switches.len()];
+    let State { t, q, v } = state;
+    ready.mechanism.switching(*t, q, v, &mut values);
+    for (switch, value) in spec.switches.iter().zip(values) {
+        if value.abs() <= ROUNDING {
+            let (function, terms) = (switch.function, switch.terms.join(", "));
+            told.push(format!(
+                "`{function}` is 0, where the {terms} has a kink or a jump, which is no part of a linear motion"
+            ));
+        }
+    }
+    for remark in &told {
+        writeln!(out, "note: {remark}")?;
+    }
+    if told.is_empty() {
+        Ok(())
+    } else {
+        writeln!(out)
+    }
 }
 
 fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::Result<()> {
@@ -112,17 +153,19 @@ fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::
 fn shape(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     let names = ready.mechanism.spec().coords;
     let parts = names.iter().zip(&mode.shape);
-    let parts = parts.filter(|(_, [re, im])| re.hypot(*im) > STILL);
-    let parts = parts.map(|(name, [re, im])| match im.abs() > STILL {
-        true => format!(
-            "{name} {} {}{}i",
-            number(*re, 1.0),
-            if *im < 0.0 { "- " } else { "+ " },
-            number(im.abs(), 1.0)
-        ),
-        false => format!("{name} {}", number(*re, 1.0)),
-    });
-    writeln!(out, "  {}", parts.collect::<Vec<_>>().join(", "))
+    let lines = lines(parts.filter_map(|(name, deviation)| moves(name, *deviation)));
+    lines.iter().try_for_each(|line| writeln!(out, "  {line}"))
+}
+
+/// The amplitude of a coordinate that moves, with a sign where it is in step with the others or against them, else with its phase.
+fn moves(name: &str, [re, im]: [f64; 2]) -> Option<String> {
+    let (size, phase) = (re.hypot(im), im.atan2(re).to_degrees());
+    let amplitude = significant(size, 4);
+    (size > STILL).then(|| match fixed(phase.abs(), 1).as_str() {
+        "0.0" => format!("{name} {amplitude}"),
+        "180.0" => format!("{name} -{amplitude}"),
+        _ => format!("{name} {amplitude} at {} deg", fixed(phase, 1)),
+    })
 }
 
 /// Seven digits; 0 for what is rounding beside `size`.
@@ -130,8 +173,27 @@ fn number(x: f64, size: f64) -> String {
     if x.abs() <= ROUNDING * size {
         return "0".to_owned();
     }
-    full(format!("{x:.6e}").parse().unwrap_or(x))
+    significant(x, 7)
 }
 
 /// A number below this part of others of its kind is rounding.
 const ROUNDING: f64 = 1e-12;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn deviations_have_a_sign_or_a_phase() {
+        let told = |re, im| moves("x", [re, im]);
+        for (re, im, text) in [
+            (1.0, 0.0, Some("x 1")),
+            (-0.25, 1e-8, Some("x -0.25")),
+            (0.0, -0.5, Some("x 0.5 at -90.0 deg")),
+            (-1.0, 1.0, Some("x 1.414 at 135.0 deg")),
+            (1e-9, 0.0, None),
+        ] {
+            assert_eq!(told(re, im).as_deref(), text);
+        }
+    }
+}

@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use crate::scene::Ready;
 use crate::units;
 
-/// Until when, by which method, how accurately.
+/// The command-line arguments that say how a motion is computed: until when, by which method, how accurately.
 #[derive(Debug, Clone, Args)]
 pub struct Motion {
     /// Time to stop at, before 0 to run backward; the model's own duration if absent
@@ -50,6 +50,11 @@ impl Motion {
     /// How long it is, s; negative backward.
     pub(crate) fn length(&self, ready: &Ready<'_>) -> f64 {
         self.until.unwrap_or(ready.duration) - ready.state.t
+    }
+
+    /// The tolerance, none where the method looks at none.
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        (!matches!(self.method, Method::Rattle { .. })).then_some(self.tol)
     }
 
     /// What computes it.
@@ -94,41 +99,45 @@ impl Motion {
         match result {
             Ok(trajectory) => Ok((trajectory, None)),
             Err(failure) if matches!(failure.error, Error::InvalidSetting { .. }) => {
-                Err(usage(failure.error))
+                Err(failure.error.into())
             }
             Err(failure) => Ok((*failure.trajectory, Some(failure.error))),
         }
     }
 
-    /// The interval of samples where none is asked for, s.
-    pub(crate) fn interval(&self, ready: &Ready<'_>) -> f64 {
-        self.length(ready).abs() / INTERVALS
+    /// The interval of samples, s: the one asked for, or one of so many equal intervals. There is none in a motion without length, whose
+    /// only sample is its start.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for an interval with which there are too many samples.
+    pub(crate) fn interval(
+        &self,
+        ready: &Ready<'_>,
+        every: Option<f64>,
+        intervals: u32,
+    ) -> Result<Option<f64>, Failure> {
+        let length = self.length(ready).abs();
+        let interval = every.unwrap_or(length / f64::from(intervals));
+        let number = length / interval;
+        if number > MOST_SAMPLES {
+            return Err(Failure::Usage(format!(
+                "`--every` is {interval:?}, which asks for {number:.1e} samples; at most {MOST_SAMPLES:.0e} are taken"
+            )));
+        }
+        Ok((length > 0.0).then_some(interval))
     }
 }
 
 /// Intervals of a run whose samples nobody has asked for otherwise.
-const INTERVALS: f64 = 1000.0;
-
-/// A setting that the simulation refuses, by the name that it has on the command line.
-pub(crate) fn usage(error: Error) -> Failure {
-    match error {
-        Error::InvalidSetting {
-            what: "every",
-            reason,
-        } => Failure::Usage(format!("`--every` {reason}")),
-        Error::InvalidSetting {
-            what: "t_end",
-            reason,
-        } => Failure::Usage(format!("`--until` {reason}")),
-        other => Failure::from(other),
-    }
-}
+pub(crate) const INTERVALS: u32 = 1000;
+/// A slip in the unit of an interval must not fill the disk.
+const MOST_SAMPLES: f64 = 1e8;
 
 /// Reads a method; the step of RATTLE may have a unit.
 pub(crate) fn method(text: &str) -> Result<Method, String> {
     match text.split_once('=') {
         Some(("rattle", step)) => Ok(Method::Rattle {
-            step: interval(step)?,
+            step: positive(step)?,
         }),
         _ => text.parse().map_err(|e: Error| e.to_string()),
     }
@@ -145,17 +154,18 @@ pub(crate) fn steps(text: &str) -> Result<usize, String> {
         .trim()
         .parse()
         .ok()
-        .filter(|x: &f64| (1.0..1e18).contains(x));
-    let number = number.ok_or("a number of steps is needed, at least 1")?;
+        .filter(|x: &f64| (1.0..1e18).contains(x) && x.fract() == 0.0);
+    let number = number.ok_or("a whole number of steps is needed, at least 1")?;
     Ok(number as usize)
 }
 
-pub(crate) fn interval(text: &str) -> Result<f64, String> {
+/// Reads a time above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let seconds = units::seconds(text)?;
     if seconds > 0.0 {
         return Ok(seconds);
     }
-    Err("the interval must be positive".to_owned())
+    Err("a positive time is needed".to_owned())
 }
 
 #[cfg(test)]
@@ -166,7 +176,7 @@ mod tests {
     fn steps_may_be_many() {
         assert_eq!(steps("1e9"), Ok(1_000_000_000));
         assert!(
-            ["0", "-1", "nan", "many", "1e30"]
+            ["0", "-1", "1.5", "nan", "many", "1e30"]
                 .iter()
                 .all(|text| steps(text).is_err())
         );

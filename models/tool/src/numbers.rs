@@ -2,14 +2,37 @@
 
 pub use ukcore::numbers::{fixed, full, short};
 
-/// A number of things: `1 step`, `2 steps`.
+/// A number of things in words: `1 step`, `2 steps`.
 #[must_use]
 pub fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {thing}{plural}")
 }
 
-/// A time with its unit: `34.0 µs`, `1.20 s`.
+/// The number of fifteen digits next to `value`: 0.3 for 0.1 + 2·0.1, as is meant by who writes fewer.
+#[must_use]
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
+/// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
+#[must_use]
+pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
+    let [si, degrees] = [value, rounded(value.to_degrees())].map(|x| short(x, 8));
+    let text = match unit == "rad" && degrees.len() < si.len() {
+        true => format!("{name} = {degrees} deg"),
+        false => format!("{name} = {si} {unit}"),
+    };
+    text.trim_end().to_owned()
+}
+
+/// So many significant digits of a number, and none that only fill it up.
+#[must_use]
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    full(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
+}
+
+/// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
@@ -25,14 +48,37 @@ pub fn duration(seconds: f64) -> String {
     format!("{} {unit}", fixed(value, digits))
 }
 
-/// The widest of some names, in characters.
+/// The number of characters of the longest of some names; 0 if there is none.
 #[must_use]
 pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     let lengths = names.into_iter().map(|n| n.chars().count());
     lengths.max().unwrap_or(0)
 }
 
-/// The middle one of some numbers; of two the larger.
+/// Width of a line of entries; with what stands before them, lines are within 100 characters.
+const LINE: usize = 84;
+
+/// Entries with commas between them, in lines as long as reads well where the entries allow it.
+#[must_use]
+pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for entry in entries {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 2 + entry.chars().count() <= LINE => {
+                *line += ", ";
+                *line += &entry;
+            }
+            Some(line) => {
+                line.push(',');
+                lines.push(entry);
+            }
+            None => lines.push(entry),
+        }
+    }
+    lines
+}
+
+/// The median of some numbers: of two in the middle the larger; nothing if there is none.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
@@ -48,6 +94,23 @@ mod tests {
         assert_eq!(
             [0, 1, 2].map(|n| count(n, "step")),
             ["0 steps", "1 step", "2 steps"]
+        );
+    }
+
+    #[test]
+    fn settings_are_short() {
+        for (value, unit, text) in [
+            (50_f64.to_radians(), "rad", "a = 50 deg"),
+            (0.9, "rad", "a = 0.9 rad"),
+            (0.0, "rad", "a = 0 rad"),
+            (0.5, "", "a = 0.5"),
+            (1.23e-3, "m", "a = 0.00123 m"),
+        ] {
+            assert_eq!(setting("a", value, unit), text);
+        }
+        assert_eq!(
+            [1.52489, 270.0, 0.0, 2.8e-21].map(|x| significant(x, 4)),
+            ["1.525", "270", "0", "2.8e-21"]
         );
     }
 

@@ -67,7 +67,7 @@ impl WholeFile {
         self.finish()
     }
 
-    /// Gives the file its name.
+    /// Ends the file: from here on it stands under its name, whole.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -85,6 +85,34 @@ impl WholeFile {
         };
         done.map_err(|e| failure(self.path.as_deref(), &e))
     }
+}
+
+/// Refuses options that name the same file: each would take the place of what the other has written.
+///
+/// # Errors
+/// [`Failure::Usage`] with both options.
+pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
+    let place = |path: &Path| {
+        let directory = path.parent().filter(|d| !d.as_os_str().is_empty());
+        let directory = fs::canonicalize(directory.unwrap_or(Path::new("."))).ok()?;
+        let place = directory.join(path.file_name()?);
+        Some(fs::canonicalize(&place).unwrap_or(place))
+    };
+    // What is no file, such as /dev/null, takes what all write.
+    let files = named.iter().filter_map(|(option, path)| {
+        let place = place((*path)?)?;
+        (place.is_file() || !place.exists()).then_some((option, place))
+    });
+    let files: Vec<_> = files.collect();
+    for (k, (option, place)) in files.iter().enumerate() {
+        if let Some((other, _)) = files[..k].iter().find(|(_, other)| other == place) {
+            return Err(Failure::Usage(format!(
+                "`{other}` and `{option}` name the same file, {}; give each its own",
+                place.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// A failure to write the file `path`, or standard output.
@@ -135,6 +163,11 @@ fn discard(which: impl Fn(&Path) -> bool) {
 /// A hidden file in the directory of `target`, so that renaming stays within one file system.
 fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     let directory = target.parent().filter(|d| !d.as_os_str().is_empty());
+    let directory = directory.unwrap_or(Path::new("."));
+    if !directory.is_dir() {
+        let message = format!("there is no directory {}", directory.display());
+        return Err(io::Error::new(io::ErrorKind::NotFound, message));
+    }
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let prefix = format!(".{name}.");
     let mut builder = tempfile::Builder::new();
@@ -142,7 +175,13 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     // As any other file that is created: for all whom the user's mask admits.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(directory.unwrap_or(Path::new(".")))?;
+    let file = builder.tempfile_in(directory);
+    // The name of the temporary file would puzzle who is told of it: the cause alone.
+    let file = file.map_err(|e| {
+        let text = e.to_string();
+        let cause = text.split(" at path ").next().unwrap_or_default();
+        io::Error::new(e.kind(), cause.to_owned())
+    })?;
     unfinished().push(file.path().to_path_buf());
     Ok(file)
 }
@@ -192,7 +231,7 @@ impl Directory {
         Ok(directory)
     }
 
-    /// The path of a file in it.
+    /// The path of the file called `name` in this directory.
     #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
@@ -308,7 +347,8 @@ mod tests {
     #[test]
     fn a_directory_that_is_missing_is_named() {
         let failure = WholeFile::create(Path::new("/nonexistent/x.csv"));
-        assert!(matches!(failure, Err(Failure::Failed(m)) if m.contains("/nonexistent/x.csv")));
+        let told = "cannot write /nonexistent/x.csv: there is no directory /nonexistent";
+        assert!(matches!(failure, Err(Failure::Failed(m)) if m == told));
     }
 
     #[cfg(unix)]

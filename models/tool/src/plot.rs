@@ -37,18 +37,18 @@ pub const COLOURS: [RGBColor; 6] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
 ];
-/// Reference curves: free fall, zero, g.
+/// The colour of curves to compare with, as those of a free fall.
 pub const GREY: RGBColor = RGBColor(120, 120, 120);
 
 pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
 /// Height of a row of a legend above the frame.
-const ROW: i32 = 18;
+const ROW: u32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
 
-/// A curve.
+/// A curve of a chart: points joined by a line, with an entry in the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
     /// Entry of the legend; none if empty.
@@ -92,7 +92,7 @@ impl Series {
     }
 }
 
-/// Where the legend stands.
+/// The place of the legend of a [`Chart`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legend {
     /// Nowhere.
@@ -111,7 +111,7 @@ pub enum Legend {
     LowerRight,
 }
 
-/// What the axes are divided by.
+/// The division of both axes of a [`Chart`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Equal distances are equal differences.
@@ -120,7 +120,7 @@ pub enum Scale {
     Decades,
 }
 
-/// A chart.
+/// A chart of curves in one frame, with labelled axes and a legend.
 #[derive(Debug, Clone)]
 pub struct Chart {
     /// Label of the horizontal axis, with its unit.
@@ -161,7 +161,7 @@ impl Chart {
         }
     }
 
-    /// The chart as the text of an SVG file.
+    /// Draws the chart as the text of an SVG file.
     ///
     /// # Errors
     /// [`Failure::Failed`] if the drawing library fails.
@@ -235,6 +235,29 @@ impl Chart {
     }
 }
 
+/// The height of a legend above the frame with so many entries, in pixels.
+pub(crate) fn legend_height(entries: usize) -> u32 {
+    8 + ROW * entries.div_ceil(2) as u32
+}
+
+/// Draws charts of one width, one below the other, as the text of an SVG file.
+///
+/// # Errors
+/// [`Failure::Failed`] if the drawing library fails.
+pub fn stacked(charts: &[Chart]) -> Result<String, Failure> {
+    let width = charts.iter().map(|chart| chart.size.0).max();
+    let height = charts.iter().map(|chart| chart.size.1).sum();
+    svg((width.unwrap_or(0), height), |area| {
+        let mut rest = area.clone();
+        for chart in charts {
+            let (panel, below) = rest.split_vertically(chart.size.1);
+            chart.draw(&panel)?;
+            rest = below;
+        }
+        Ok(())
+    })
+}
+
 impl Chart {
     /// The legend, if it stands above the frame; what is left of the area for the frame then.
     fn draw_legend_above<'a>(
@@ -247,8 +270,7 @@ impl Chart {
         // What lies on top comes first.
         let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
         let rows = named().count().div_ceil(2);
-        let height = 8 + ROW * rows as i32;
-        let (legend, frame) = area.split_vertically(height);
+        let (legend, frame) = area.split_vertically(legend_height(named().count()));
         let column = self.size.0 as i32 / 2 - 10;
         let text = (FONT, TICK_SIZE)
             .into_text_style(&legend)
@@ -256,7 +278,7 @@ impl Chart {
         for (k, series) in named().enumerate() {
             let (x, y) = (
                 16 + column * (k / rows) as i32,
-                8 + ROW / 2 + ROW * (k % rows) as i32,
+                8 + (ROW / 2 + ROW * (k % rows) as u32) as i32,
             );
             let style = series.colour.stroke_width(series.width);
             let line = [(x, y), (x + 26, y)];

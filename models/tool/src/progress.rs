@@ -19,7 +19,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar for `what`.
+    /// A bar with `what` before it, which is not shown yet.
     pub fn new(what: &str) -> Self {
         let bar =
             ProgressBar::with_draw_target(Some(RESOLUTION as u64), ProgressDrawTarget::hidden());
@@ -35,7 +35,7 @@ impl Progress {
         }
     }
 
-    /// The part done, 0 to 1, and what is being done.
+    /// Moves the bar to the part done, from 0 to 1, and writes behind it what is being done.
     pub fn set(&self, fraction: f64, message: impl FnOnce() -> String) {
         if self.started.elapsed() < PATIENCE {
             return;
@@ -49,7 +49,7 @@ impl Progress {
         }
     }
 
-    /// Removes the bar.
+    /// Removes the bar from the screen.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }

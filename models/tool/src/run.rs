@@ -6,20 +6,20 @@ use std::time::Instant;
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::simulate::{CsvWriter, Drift, Ending};
-use ukcore::{Error, Trajectory};
+use ukcore::simulate::{CsvWriter, Drift, Ending, Sample};
+use ukcore::{Error, State, Trajectory};
 
 use crate::animate::{self, Film};
 use crate::command;
 use crate::curves::Curves;
 use crate::failure::Failure;
-use crate::motion::{self, Motion};
+use crate::motion::{self, INTERVALS, Motion};
 use crate::numbers::full;
 use crate::output::{self, WholeFile};
 use crate::scene::{Ready, Scene};
 use crate::summary::Summary;
 
-/// The arguments of `run`.
+/// The command-line arguments of the command `run`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The mechanism and its start
@@ -29,14 +29,14 @@ pub struct RunArgs {
     #[command(flatten)]
     pub motion: Motion,
     /// Sample at this interval; each accepted step if absent, unless something is drawn
-    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write the samples as CSV; `-` is standard output, which then holds nothing else and gets each row as soon as it is computed.
     /// Of a run that fails or is interrupted (Ctrl-C), what was computed so far is written
-    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    #[arg(long, value_name = "FILE", value_parser = command::path_or_stdout)]
     pub csv: Option<PathBuf>,
-    /// Draw curves as SVG: each is a NAME of `--csv` over time, or `X,Y`, which is Y over X. Where `--every` says nothing, the run then has
-    /// 1000 equal intervals
+    /// Draw curves as SVG: each is a NAME of `--csv` over time, or `X,Y`, which is Y over X. What differs in units, or is over something
+    /// else, has a panel of its own, one below the other. Where `--every` says nothing, the run then has 1000 equal intervals
     #[arg(long, num_args = 2.., value_names = ["FILE", "CURVE"])]
     pub plot: Option<Vec<String>>,
     /// Write a page that plays the motion, as `animate` does
@@ -60,6 +60,13 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
                 .to_owned(),
         ));
     }
+    let path = args.csv.as_deref().filter(|_| !to_stdout);
+    let plot = args.plot.as_ref().and_then(|asked| asked.first());
+    output::apart(&[
+        ("--csv", path),
+        ("--plot", plot.map(Path::new)),
+        ("--animate", args.animate.as_deref()),
+    ])?;
     let ready = args.scene.ready(models)?;
     let file = match args.csv.as_deref() {
         None => None,
@@ -68,7 +75,6 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     };
     let begin = |file| CsvWriter::new(&ready.mechanism, file);
     let rows = file.map(begin).transpose();
-    let path = args.csv.as_deref().filter(|_| !to_stdout);
     let curves = args.plot.as_ref();
     let curves = curves.map(|asked| Curves::new(&ready.mechanism, asked));
     let film = match args.animate.as_deref() {
@@ -80,6 +86,7 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         curves: curves.transpose()?,
         film,
         drift: Drift::new(&ready.mechanism),
+        broken: None,
     };
     let started = Instant::now();
     let (trajectory, error, mut samples) = integrate(&ready, args, samples)?;
@@ -112,6 +119,7 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         let summary = Summary {
             trajectory: &trajectory,
             measured: &samples.drift,
+            broken: samples.broken.as_ref(),
             ready: &ready,
             motion: &args.motion,
             seconds,
@@ -131,6 +139,8 @@ struct Samples {
     curves: Option<Curves>,
     film: Option<(Film, WholeFile)>,
     drift: Drift,
+    /// The first at which an output is not finite.
+    broken: Option<State>,
 }
 
 /// The trajectory, why it ends early if it does by an error, and what became of its samples. Where rows cannot be written it ends too.
@@ -142,21 +152,19 @@ fn integrate(
     args: &RunArgs,
     mut samples: Samples,
 ) -> Result<(Trajectory, Option<Error>, Samples), Failure> {
-    let every = args.every.or_else(|| {
-        let pictures = args.plot.is_some() || args.animate.is_some();
-        pictures.then(|| args.motion.interval(ready))
-    });
-    if let Some(interval) = every {
-        let number = args.motion.length(ready).abs() / interval;
-        if number > MOST_SAMPLES {
-            return Err(Failure::Usage(format!(
-                "`--every` is {interval:?}, which asks for {number:.1e} samples; at most {MOST_SAMPLES:.0e} are written"
-            )));
-        }
-    }
+    let every = match args.every.is_some() || args.plot.is_some() || args.animate.is_some() {
+        true => args.motion.interval(ready, args.every, INTERVALS)?,
+        false => None,
+    };
     let mut broken = None;
+    let mut outputs = vec![0.0; ready.mechanism.spec().outputs.len()];
     let (trajectory, error) = args.motion.follow(ready, every, |sample| {
         samples.drift.add(sample);
+        let Sample { t, q, v, .. } = sample;
+        ready.mechanism.outputs(t, q, v, &mut outputs);
+        if samples.broken.is_none() && outputs.iter().any(|x| !x.is_finite()) {
+            samples.broken = Some(sample.to_state());
+        }
         if let Some(curves) = &mut samples.curves {
             curves.add(sample);
         }
@@ -176,9 +184,6 @@ fn integrate(
     }
     Ok((trajectory, error, samples))
 }
-
-/// A slip in the unit of an interval must not fill the disk.
-const MOST_SAMPLES: f64 = 1e8;
 
 fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"

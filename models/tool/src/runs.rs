@@ -8,14 +8,15 @@ use ukcore::{Method, Stabilisation};
 
 use crate::failure::Failure;
 use crate::motion::{self, Motion};
-use crate::numbers::full;
+use crate::numbers::{full, rounded};
 use crate::scene::{Place, Start};
 use crate::units::{self, Quantity};
 
-/// Runs of one model, one for each combination of the values listed.
+/// The command-line arguments for several runs of one model: one for each combination of the values listed.
 #[derive(Debug, Clone, Args)]
 pub struct Runs {
-    /// Set a parameter or an option of the start, to each of several values: `k=1,2,5` or `x0=12..16:0.5`; may be repeated
+    /// Set a parameter or an option of the start, to each of several values: `k=1,2,5`, `x0=12..16:0.5`, `angle=10deg..80deg:10deg`; may be
+    /// repeated
     #[arg(long = "set", value_name = "NAME=VALUES", value_parser = assignment)]
     pub settings: Vec<(String, Values)>,
     /// Where they begin
@@ -38,7 +39,7 @@ pub struct Runs {
     pub stabilise: List<Stabilisation>,
 }
 
-/// One of the runs.
+/// One of the runs that [`Runs`] asks for.
 #[derive(Debug, Clone)]
 pub struct Variant {
     /// With which parameters, and from where.
@@ -50,7 +51,7 @@ pub struct Variant {
 }
 
 impl Runs {
-    /// The runs of `entry`, the last list running fastest.
+    /// Lists the runs of `entry`, with the values of the last list next to each other.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
@@ -164,36 +165,27 @@ impl Values {
     }
 }
 
-/// 0.3 for 0.1 + 2·0.1: the number of fifteen digits, which is what is meant by steps that are written with fewer.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.14e}").parse().unwrap_or(value)
-}
-
 /// Reads `NAME=VALUES`.
 fn assignment(text: &str) -> Result<(String, Values), String> {
     let (name, values) = units::split(text, "VALUES")?;
-    let values = match values.split_once("..") {
-        Some((first, rest)) => {
-            let (last, step) = rest
-                .split_once(':')
-                .ok_or_else(|| format!("a range needs its step: `{name}={first}..{rest}:STEP`"))?;
-            Values::Range([
-                Quantity::parse(first)?,
-                Quantity::parse(last)?,
-                Quantity::parse(step)?,
-            ])
-        }
-        None => Values::List(
-            values
-                .split(',')
-                .map(Quantity::parse)
-                .collect::<Result<_, _>>()?,
-        ),
+    let Some((first, rest)) = values.split_once("..") else {
+        let list: Result<Vec<_>, _> = values.split(',').map(Quantity::parse).collect();
+        let list = list?;
+        Quantity::alike(&list, text)?;
+        return Ok((name.to_owned(), Values::List(list)));
     };
-    Ok((name.to_owned(), values))
+    let (last, step) = rest
+        .split_once(':')
+        .ok_or_else(|| format!("a range needs its step: `{name}={first}..{rest}:STEP`"))?;
+    let bounds = [Quantity::parse(first)?, Quantity::parse(last)?];
+    let step = Quantity::parse(step)?.in_unit_of(&bounds);
+    let [first, last] = bounds;
+    let range = [first, last, step];
+    Quantity::alike(&range, text)?;
+    Ok((name.to_owned(), Values::Range(range)))
 }
 
-/// What is written with commas between.
+/// Values that are written with commas between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(pub Vec<T>);
 
@@ -260,6 +252,10 @@ mod tests {
         assert_eq!(numbers("x=0.1..0.3:0.1", "m"), [0.1, 0.2, 0.3]);
         assert_eq!(numbers("x=10mm..30mm:1cm", "m"), [0.01, 0.02, 0.03]);
         assert_eq!(numbers("x=3..1:-1", "m"), [3.0, 2.0, 1.0]);
+        // A step without a unit is in that of the ends.
+        assert_eq!(numbers("x=10mm..30mm:10", "m"), [0.01, 0.02, 0.03]);
+        assert_eq!(numbers("x=0..30mm:10", "m"), [0.0, 0.01, 0.02, 0.03]);
+        assert_eq!(numbers("x=0,30mm", "m"), [0.0, 0.03]);
         assert_eq!(numbers("x=1..2:5", "m"), [1.0]);
         for (text, unit) in [("x=1..2:0", "m"), ("x=2..1:1", "m"), ("x=0..1:1e-9", "m")] {
             let (_, values) = assignment(text).expect("values");
@@ -267,6 +263,11 @@ mod tests {
         }
         for text in ["x", "=1", "x=", "x=1..2", "x=1,,2", "x=1..2:m3"] {
             assert!(assignment(text).is_err(), "{text}");
+        }
+        // Some would be in SI, and nobody means that.
+        for text in ["x=10..30mm:10", "x=10mm..3cm:10", "x=1..2:1mm", "x=1,2mm"] {
+            let told = assignment(text).expect_err(text);
+            assert!(told.contains("write it behind each"), "{told}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
 use clap::Args;
-use ukcore::model::{DURATION, Entry, StartOptions, StartSpec};
+use ukcore::model::{Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
@@ -9,7 +9,7 @@ use crate::command::find;
 use crate::failure::Failure;
 use crate::units::{self, Quantity};
 
-/// Which mechanism, with which parameters, from where.
+/// The command-line arguments that name a mechanism, its parameters and its start.
 #[derive(Debug, Args)]
 pub struct Scene {
     /// Model (see `list`)
@@ -19,7 +19,7 @@ pub struct Scene {
     pub start: Start,
 }
 
-/// With which parameters, and from where.
+/// The command-line arguments for the parameters of a mechanism and its start.
 #[derive(Debug, Default, Clone, Args)]
 pub struct Start {
     /// Set a parameter or an option of the start; may be repeated
@@ -30,7 +30,7 @@ pub struct Start {
     pub place: Place,
 }
 
-/// The start configuration, and what is guessed of it.
+/// The command-line arguments for where a motion begins: a start on offer, or a guess to assemble one from.
 #[derive(Debug, Default, Clone, Args)]
 pub struct Place {
     /// Start configuration (see `list`); the first one if absent
@@ -61,7 +61,7 @@ pub struct Ready<'a> {
 }
 
 impl Scene {
-    /// The mechanism that is asked for, at its start.
+    /// Finds the mechanism that is asked for, sets its parameters and puts it together at its start.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
@@ -72,7 +72,7 @@ impl Scene {
 }
 
 impl Start {
-    /// Whether nothing is asked for: the model as it is.
+    /// Whether nothing is asked for, so that the model is taken as it is.
     #[must_use]
     pub fn is_default(&self) -> bool {
         self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
@@ -87,7 +87,7 @@ impl Start {
         !self.place.guesses.is_empty() || !self.place.hold.is_empty()
     }
 
-    /// `entry` with these parameters, at this start.
+    /// Sets the parameters of `entry` and puts it together at its start.
     ///
     /// # Errors
     /// What [`Scene::ready`] reports.
@@ -110,7 +110,7 @@ impl Start {
             mechanism,
             start: name.unwrap_or("assembled"),
             state,
-            duration: start.map_or(DURATION, |spec| spec.duration),
+            duration: StartSpec::typical(start),
         })
     }
 
@@ -122,6 +122,7 @@ impl Start {
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
+        once("--set", &self.settings)?;
         let start = self.spec(entry)?;
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
@@ -158,6 +159,7 @@ impl Start {
     /// The nearest consistent state to `state` with the guesses in it.
     fn assembled(&self, mechanism: &Prepared, mut state: State) -> Result<State, Failure> {
         let spec = mechanism.spec();
+        once("--guess", &self.place.guesses)?;
         for (name, quantity) in &self.place.guesses {
             let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
             let values = if velocity.is_some() {
@@ -182,6 +184,19 @@ impl Start {
             )),
             other => other.into(),
         })
+    }
+}
+
+/// Refuses a name that is given twice, of which one value would count and nobody know which.
+fn once(option: &str, given: &[(String, Quantity)]) -> Result<(), Failure> {
+    let twice = |(k, (name, _)): &(usize, &(String, Quantity))| {
+        given[..*k].iter().any(|(other, _)| other == name)
+    };
+    match given.iter().enumerate().find(twice) {
+        None => Ok(()),
+        Some((_, (name, _))) => Err(Failure::Usage(format!(
+            "`{name}` is given twice by `{option}`; leave one out"
+        ))),
     }
 }
 

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
-use ukcore::{Method, Solver, SolverOptions, Trajectory};
+use ukcore::{Solver, SolverOptions, State, Trajectory, lost_reactions};
 
 use crate::drift::Drift;
 use crate::motion::Motion;
-use crate::numbers::{count, fixed, full, width};
+use crate::numbers::{count, fixed, full, significant, width};
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -16,6 +16,8 @@ pub(crate) struct Summary<'a> {
     pub(crate) trajectory: &'a Trajectory,
     /// Its samples.
     pub(crate) measured: &'a ukcore::simulate::Drift,
+    /// The first of them at which an output is not finite.
+    pub(crate) broken: Option<&'a State>,
     pub(crate) ready: &'a Ready<'a>,
     pub(crate) motion: &'a Motion,
     /// Wall time of the integration, s.
@@ -40,11 +42,6 @@ impl Summary<'_> {
             Ending::Interrupted => "interrupted",
             Ending::Failed => "failed",
         }
-    }
-
-    /// None where the method looks at none.
-    fn tolerance(&self) -> Option<f64> {
-        (!matches!(self.motion.method, Method::Rattle { .. })).then_some(self.motion.tol)
     }
 
     fn drift(&self) -> Drift {
@@ -95,7 +92,7 @@ impl Summary<'_> {
             "parameters": named(params, self.trajectory.mechanism().parameters()),
             "method": self.motion.method.to_string(),
             "stabilise": self.motion.stabilise.to_string(),
-            "tolerance": self.tolerance(),
+            "tolerance": self.motion.tolerance(),
             "ending": self.ending(),
             "error": self.error,
             "final": self.last(),
@@ -104,6 +101,7 @@ impl Summary<'_> {
             "position_residual": drift.position_residual,
             "velocity_residual": drift.velocity_residual,
             "energy_drift": drift.energy_drift,
+            "energy_exchanged": drift.energy_drift.map(|_| self.measured.exchanged()),
             "work": {
                 "steps": work.steps,
                 "rejected": work.rejected,
@@ -125,24 +123,39 @@ impl Summary<'_> {
     /// # Errors
     /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let tolerance = self.tolerance();
+        let tolerance = self.motion.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
         let (id, start) = (&self.ready.entry.id, self.ready.start);
         let (method, ending) = (self.motion.method, self.ending());
         writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
         let (drift, w) = (self.drift(), self.trajectory.work());
         self.write_last(out)?;
-        writeln!(
-            out,
-            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
-            drift.position_residual,
-            drift.velocity_residual,
-            count(self.measured.samples(), "sample")
-        )?;
-        match drift.energy_drift {
-            Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
-            None => writeln!(out, "Energy is not conserved in this model")?,
+        let samples = count(self.measured.samples(), "sample");
+        writeln!(out, "\nLargest of {samples}")?;
+        if self.trajectory.spec().m() > 0 {
+            writeln!(
+                out,
+                "  constraint residuals: position {:.1e}, velocity {:.1e}, in the units of the constraints (SI)",
+                drift.position_residual, drift.velocity_residual,
+            )?;
         }
+        match drift.energy_drift {
+            Some(drift) => writeln!(
+                out,
+                "  energy drift: {drift:.1e} of the energy exchanged, {}{}",
+                significant(self.measured.exchanged(), 4),
+                if self.trajectory.spec().coordinate_units.is_empty() {
+                    ""
+                } else {
+                    " J"
+                },
+            )?,
+            None => writeln!(
+                out,
+                "  energy drift: not told, as energy is not conserved in this model"
+            )?,
+        }
+        self.write_broken(out)?;
         if w.rounded > 0 {
             let steps = count(w.rounded, "step");
             writeln!(
@@ -213,6 +226,22 @@ impl Summary<'_> {
             false => format!("the other constraints imply {}", names.join(", ")),
             true => "its pivots lose their digits, as constraints nearly imply each other or masses are many orders apart".to_owned(),
         }
+    }
+
+    /// Which outputs are not finite, and why, as far as reactions are the cause.
+    fn write_broken(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Some(state) = self.broken else {
+            return Ok(());
+        };
+        let mechanism = self.trajectory.mechanism();
+        let declared = mechanism.spec().outputs;
+        let mut outputs = vec![0.0; declared.len()];
+        mechanism.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let names = declared.iter().zip(outputs).filter(|(_, x)| !x.is_finite());
+        let names: Vec<String> = names.map(|(o, _)| format!("`{}`", o.name)).collect();
+        let cause = lost_reactions(mechanism, state).map_or(String::new(), |c| format!("; {c}"));
+        let (names, t) = (names.join(", "), full(state.t));
+        writeln!(out, "Not finite at t = {t} s: {names}{cause}")
     }
 
     fn write_last(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -1,7 +1,7 @@
 //! The command `sweep`: many runs of a model, one for each combination of values, as a table.
 //!
-//! Each row is appended as soon as its run has ended, in one write; a table that is not finished is taken up where it ends. When all runs are
-//! there the rows are put in order, so that the file does not depend on the number of cores.
+//! Each row is appended as soon as its run has ended, in one write; a table that is not finished is taken up where it ends. When all runs
+//! are there the rows are put in order, so that the file does not depend on the number of cores.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -13,20 +13,21 @@ use std::sync::{Mutex, PoisonError};
 
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
-use ukcore::model::{DURATION, Entry};
+use ukcore::model::{Entry, StartSpec};
 use ukcore::simulate::{Drift, Ending, Record, Sample};
 
 use crate::columns::Columns;
 use crate::command::{self, find};
 use crate::failure::Failure;
+use crate::html::joined;
 use crate::interrupt::Interrupt;
-use crate::motion;
+use crate::motion::{self, INTERVALS};
 use crate::numbers::count;
 use crate::output::{self, write_whole};
 use crate::progress::Progress;
 use crate::runs::{Runs, Variant};
 
-/// The arguments of `sweep`.
+/// The command-line arguments of the command `sweep`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct SweepArgs {
     /// Model (see `list`)
@@ -38,7 +39,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub of: Vec<String>,
     /// Interval at which extremes are looked for; a thousandth of the run if absent
-    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// The table, as CSV. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
@@ -51,9 +52,9 @@ const MOST: usize = 1_000_000;
 /// Runs all members that the table has not yet, on all cores.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the user
-/// ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the table
-/// not be written. A member that fails alone is a row with its error.
+/// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the
+/// user ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the
+/// table not be written; [`Failure::Partly`] if some could not: each is a row with its error.
 pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let entry = find(models, &args.model)?;
     let columns = match args.of.is_empty() {
@@ -97,19 +98,46 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     }
     drop(table);
     let failed = in_order(&args.out)?;
-    if let (Some(first), true) = (failed.first(), failed.len() == all) {
+    let Some((member, error)) = failed.first() else {
+        let told = format!("{} in {}", count(all, "run"), args.out.display());
+        return output::to_stdout(|out| writeln!(out, "{told}"));
+    };
+    if failed.len() == all {
         return Err(Failure::Failed(format!(
-            "no run succeeded; the first: {first}"
+            "no run succeeded; the first: {error}"
         )));
     }
-    output::to_stdout(|out| {
-        write!(out, "{} in {}", count(all, "run"), args.out.display())?;
-        match failed.len() {
-            0 => writeln!(out),
-            number => writeln!(out, ", of which {number} failed (column `error`)"),
+    let which = match &failed[..] {
+        [_] => format!("number {member}"),
+        _ => {
+            let members = failed.iter().take(SHOWN).map(|(member, _)| member.clone());
+            let more = if failed.len() > SHOWN { ", …" } else { "" };
+            format!("numbers {}{more}; the first", joined(members))
         }
-    })
+    };
+    Err(Failure::Partly(format!(
+        "{} of {} failed (column `error` of {}): {which}: {error}",
+        failed.len(),
+        count(all, "run"),
+        args.out.display(),
+    )))
 }
+
+/// Runs that failed are called by their numbers, so many of them.
+const SHOWN: usize = 10;
+
+/// The columns that every table has: before options and parameters, behind them, and behind quantities.
+const FIRST: [&str; 2] = ["member", "start"];
+const SETTINGS: [&str; 5] = ["until", "tolerance", "method", "stabilisation", "t"];
+const LAST: [&str; 7] = [
+    "residual",
+    "energy_drift",
+    "steps",
+    "rejected",
+    "evaluations",
+    "fallbacks",
+    "error",
+];
 
 /// All that is to be computed.
 struct Plan<'a> {
@@ -123,29 +151,28 @@ impl Plan<'_> {
     /// The line of names.
     fn head(&self) -> Result<Vec<u8>, Failure> {
         let (_, start, _) = self.members[0].start.settings(self.entry)?;
-        let mut head = vec!["member".to_owned(), "start".to_owned()];
+        // No two columns have one name.
+        let own = |what: &str, name: &str| {
+            let taken = [&FIRST[..], &SETTINGS, &LAST].concat().contains(&name);
+            if taken {
+                format!("{what}({name})")
+            } else {
+                name.to_owned()
+            }
+        };
+        let mut head = FIRST.map(str::to_owned).to_vec();
         let options = start.map_or(&[][..], |s| s.options);
-        head.extend(options.iter().map(|o| o.name.to_owned()));
+        head.extend(options.iter().map(|o| own("set", o.name)));
         let params = self.entry.mechanism.spec().params;
-        head.extend(params.iter().map(|p| p.name.to_owned()));
-        head.extend(["until", "tolerance", "method", "stabilisation"].map(str::to_owned));
-        head.push("t".to_owned());
+        head.extend(params.iter().map(|p| own("set", p.name)));
+        head.extend(SETTINGS.map(str::to_owned));
         for name in self.columns.names() {
-            head.push(name.to_owned());
+            head.push(own("end", name));
             for what in ["min", "t_min", "max", "t_max"] {
                 head.push(format!("{what}({name})"));
             }
         }
-        let last = [
-            "residual",
-            "energy_drift",
-            "steps",
-            "rejected",
-            "evaluations",
-            "fallbacks",
-            "error",
-        ];
-        head.extend(last.map(str::to_owned));
+        head.extend(LAST.map(str::to_owned));
         line(&head)
     }
 
@@ -162,9 +189,7 @@ impl Plan<'_> {
             key.push(number(options.get(option.name).unwrap_or(option.default)));
         }
         key.extend(mechanism.parameters().iter().map(|x| number(*x)));
-        let until = motion
-            .until
-            .unwrap_or(spec.map_or(DURATION, |s| s.duration));
+        let until = motion.until.unwrap_or(StartSpec::typical(spec));
         key.extend([
             number(until),
             number(motion.tol),
@@ -193,14 +218,14 @@ impl Plan<'_> {
         let mut drift = Drift::new(&ready.mechanism);
         let mut last = Vec::new();
         let length = chosen.motion.length(&ready);
-        let simulation = chosen
-            .motion
-            .simulation(&ready)
-            .every(self.every.unwrap_or_else(|| chosen.motion.interval(&ready)))
-            .progress(move |_| match interrupt.is_set() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            });
+        let mut simulation = chosen.motion.simulation(&ready);
+        if let Some(interval) = chosen.motion.interval(&ready, self.every, INTERVALS)? {
+            simulation = simulation.every(interval);
+        }
+        let simulation = simulation.progress(move |_| match interrupt.is_set() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
         let mut add = |sample: Sample<'_>| {
             last = columns.values(sample);
             for (extremes, value) in extremes.iter_mut().zip(&last) {
@@ -216,7 +241,7 @@ impl Plan<'_> {
         });
         let (trajectory, error) = match result {
             Ok(trajectory) => (trajectory, String::new()),
-            Err(failure) => (*failure.trajectory, motion::usage(failure.error).message()),
+            Err(failure) => (*failure.trajectory, Failure::from(failure.error).message()),
         };
         if trajectory.ending() == Ending::Interrupted {
             return Ok(None);
@@ -231,14 +256,13 @@ impl Plan<'_> {
             row.push(number(value));
             row.extend(extremes.told().map(number));
         }
-        let conservative = trajectory.spec().structure.conservative;
         let work = trajectory.work();
-        row.push(number(drift.residual().largest()));
-        row.push(if conservative {
-            number(drift.energy())
-        } else {
-            String::new()
-        });
+        let told = |known: bool, x: f64| if known { number(x) } else { String::new() };
+        // A run that did not begin has none.
+        let any = drift.samples() > 0;
+        row.push(told(any, drift.residual().largest()));
+        let conservative = trajectory.spec().structure.conservative;
+        row.push(told(any && conservative, drift.energy()));
         let counts = [work.steps, work.rejected, work.evaluations, work.fallbacks];
         row.extend(counts.map(|n| n.to_string()));
         row.push(error);
@@ -399,13 +423,13 @@ impl Table {
 
 fn other(path: &Path) -> Failure {
     Failure::Usage(format!(
-        "{} is there and holds something else than the begin of this sweep; take another file with `--out`, or remove it",
+        "{} is there and holds something else than the beginning of this sweep; take another file with `--out`, or remove it",
         path.display()
     ))
 }
 
-/// Puts the rows in the order of their members; the errors that there are.
-fn in_order(path: &Path) -> Result<Vec<String>, Failure> {
+/// Puts the rows in the order of their members; the members that failed, with their errors.
+fn in_order(path: &Path) -> Result<Vec<(String, String)>, Failure> {
     let text = fs::read_to_string(path).map_err(|e| Failure::file(path, &e))?;
     let (head, rows) = text.split_once('\n').unwrap_or((&text, ""));
     let member = |row: &&str| {
@@ -419,9 +443,14 @@ fn in_order(path: &Path) -> Result<Vec<String>, Failure> {
     let sorted = format!("{head}\n{}\n", rows.join("\n"));
     write_whole(path, |out| out.write_all(sorted.as_bytes()))?;
     let mut reader = csv::Reader::from_reader(sorted.as_bytes());
-    let last = |record: csv::StringRecord| record.iter().next_back().unwrap_or_default().to_owned();
-    let errors = reader.records().filter_map(Result::ok).map(last);
-    Ok(errors.filter(|error| !error.is_empty()).collect())
+    let ends = |record: csv::StringRecord| {
+        let (member, error) = (record.get(0)?, record.get(record.len() - 1)?);
+        (!error.is_empty()).then(|| (member.to_owned(), error.to_owned()))
+    };
+    Ok(reader
+        .records()
+        .filter_map(|record| ends(record.ok()?))
+        .collect())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use ukcore::Error;
 use ukunits::{Dimension, Refusal, Unit};
 
-/// A value, and its unit if one is named.
+/// A value as it is written on the command line: a number, and its unit if one is named.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
     value: f64,
@@ -18,7 +18,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Reads a value.
+    /// Reads a value: a number, or a product, with a unit behind or without.
     ///
     /// # Errors
     /// What is wrong with `text`, with the nearest unit if one is unknown.
@@ -40,6 +40,39 @@ impl Quantity {
         }
     }
 
+    /// This one, a bare number, in the unit of `others` if they have one and the same; 0 has any.
+    #[must_use]
+    pub(crate) fn in_unit_of(self, others: &[Quantity]) -> Self {
+        let mut units = others.iter().filter(|q| !q.is_zero()).map(|q| &q.unit);
+        let unit = units.next().filter(|unit| units.all(|u| u == *unit));
+        match (&self.unit, unit) {
+            (None, Some(unit)) => Quantity {
+                unit: unit.clone(),
+                ..self
+            },
+            _ => self,
+        }
+    }
+
+    /// Refuses numbers of which some have a unit and some have none: those would be in SI, which nobody means. 0 is 0 in any unit.
+    ///
+    /// # Errors
+    /// What to do.
+    pub(crate) fn alike(values: &[Quantity], text: &str) -> Result<(), String> {
+        let told: Vec<_> = values.iter().filter(|q| !q.is_zero()).collect();
+        let bare = told.iter().filter(|q| q.unit.is_none()).count();
+        if bare == 0 || bare == told.len() {
+            return Ok(());
+        }
+        Err(format!(
+            "in `{text}` some numbers have a unit and some have none; write it behind each"
+        ))
+    }
+
+    fn is_zero(&self) -> bool {
+        self.value == 0.0 && self.unit.is_none()
+    }
+
     /// The number in kg, m, s and rad, in which a bare number is already.
     fn in_si(&self) -> f64 {
         let unit = self.unit.as_ref();
@@ -54,7 +87,7 @@ impl Quantity {
         self.of(declared, Dimension::NUMBER)
     }
 
-    /// The same of a velocity, of what is declared in `declared`.
+    /// The number in the SI unit of a velocity: `declared` per second.
     ///
     /// # Errors
     /// If it is of another dimension.
@@ -83,7 +116,7 @@ impl From<f64> for Quantity {
     }
 }
 
-/// Splits `NAME=VALUE`.
+/// Reads `NAME=VALUE` as a name and a quantity.
 ///
 /// # Errors
 /// If there is no `=`, no name, or the value is not understood.
@@ -104,7 +137,7 @@ pub(crate) fn split<'a>(text: &'a str, values: &str) -> Result<(&'a str, &'a str
     }
 }
 
-/// A time in seconds: `1.5`, `20ms`, `2min`.
+/// Reads a time, such as `1.5`, `20ms` or `2min`, as seconds.
 ///
 /// # Errors
 /// If the value is not understood or not a time.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::State;
+use super::{Held, State};
 use crate::error::Error;
 use crate::manifold::{At, Level, Manifold, Part, Reached, parts};
 use crate::mechanism::Prepared;
@@ -59,6 +59,19 @@ impl Search {
         }
     }
 
+    /// The state at `q` whose velocities are next to those of `guess`.
+    pub(crate) fn velocities(
+        mech: &Prepared,
+        guess: &State,
+        held: &Held,
+        q: Vec<f64>,
+    ) -> Result<State, Error> {
+        let mut search = Search::new(mech, guess, &held.velocities);
+        let v = held.rates(&q, &guess.v);
+        let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
+        Ok(State { t: guess.t, q, v })
+    }
+
     /// The solution where the equations fall apart, or have solutions that lie apart, next to the guess; `None` where they do neither, or
     /// where none is found that way.
     fn find_by_parts(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Option<Vec<f64>> {
@@ -80,7 +93,7 @@ impl Search {
         self.manifold.project(at, &mut x).is_ok().then_some(x)
     }
 
-    /// The solution for one level; tries the guess, then perturbations of it.
+    /// The solution for one level; tries the guess, then perturbations of it, and all of them again with coordinates that move alike.
     pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
         let mut x = guess.to_vec();
         if at.linear() && self.manifold.project(at, &mut x).is_ok() {
@@ -96,15 +109,21 @@ impl Search {
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
-        for shake in shakes {
-            let mut place = guess.to_vec();
-            self::shake(&mut place, &self.free, shake * size);
-            let cost = self.manifold.search(at, guess, &mut place);
-            if cost == 0.0 {
-                return Ok(place);
+        for even in [false, true] {
+            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
+            if even {
+                self.manifold.even();
             }
-            if cost < least {
-                (least, x) = (cost, place);
+            for shake in shakes {
+                let mut place = guess.to_vec();
+                self::shake(&mut place, &self.free, shake * size);
+                let cost = self.manifold.search(at, guess, &mut place);
+                if cost == 0.0 {
+                    return Ok(place);
+                }
+                if cost < least && !even {
+                    (least, x) = (cost, place);
+                }
             }
         }
         Err(match self.manifold.refusal(at, &x) {

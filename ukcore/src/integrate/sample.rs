@@ -38,9 +38,7 @@ impl<'a> Sample<'a> {
 
     /// `error` with this state as the place where it arose.
     pub(crate) fn locate(self, error: Error) -> Error {
-        let State { t, q, v } = self.to_state();
-        let source = Box::new(error);
-        Error::At { t, q, v, source }
+        self.to_state().locate(error)
     }
 }
 

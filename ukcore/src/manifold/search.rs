@@ -114,6 +114,13 @@ impl Manifold {
         &self.newton.acceptance.ease
     }
 
+    /// From here on coordinates move as readily as each other.
+    pub(crate) fn even(&mut self) {
+        let ease = &mut self.newton.acceptance.ease;
+        let mean = ease.iter().map(|x| x.ln()).sum::<f64>() / ease.len().max(1) as f64;
+        ease.fill(mean.exp());
+    }
+
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
     /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
@@ -123,7 +130,8 @@ impl Manifold {
         let Reached { cost, .. } = self.search_part(at, &whole, guess, x);
         let ease = &self.newton.acceptance.ease;
         let met = self.meets(at, x, Size::of(guess, ease));
-        if (cost == 0.0 || met) && (self.project(at, x).is_ok() || met) {
+        let near = met || cost == 0.0;
+        if near && self.project(at, x).is_ok() || met {
             return 0.0;
         }
         cost

@@ -73,6 +73,11 @@ impl Slopes {
         Slopes(std::array::from_fn(along))
     }
 
+    /// Those of variable `own` along the variables from `first` on: 1 along itself, else 0.
+    pub(crate) fn unit(own: usize, first: usize) -> Self {
+        Slopes::new(|k| f64::from(u8::from(own == first + k)))
+    }
+
     /// The derivative along a direction.
     ///
     /// # Panics

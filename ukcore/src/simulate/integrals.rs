@@ -13,9 +13,11 @@
 //! method estimates to be its error, growing from 0 at the start of the step; what that changes is held against the tolerance of the run as
 //! the error of a coordinate is. A method without an estimate has steps of one size, and nothing to choose.
 
+use crate::diagnosis::lost_reactions;
 use crate::error::Error;
 use crate::events::States;
 use crate::integrate::Tolerance;
+use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
 
 /// Points in [−1, 1] that are not negative, and their weights by the rule of 7 points and by that of 4, which is Lobatto's (Gander &
@@ -195,13 +197,17 @@ impl Integrals {
         }
         let names = self.mechanism.integrals().iter();
         let broken = names.zip(&self.integrands).filter(|(_, f)| !f.is_finite());
-        let what: Vec<String> = broken
+        let mut what: Vec<String> = broken
             .map(|(s, _)| format!("integrand of {}", s.name))
             .collect();
-        match what.is_empty() {
-            true => Ok(()),
-            false => Err(Error::NonFinite { what }),
+        let Some(last) = what.last_mut() else {
+            return Ok(());
+        };
+        let there = Sample::of(t, &self.state).to_state();
+        if let Some(cause) = lost_reactions(&self.mechanism, &there) {
+            *last += &format!("; {cause}");
         }
+        Err(Error::NonFinite { what })
     }
 }
 

@@ -71,6 +71,12 @@ impl Drift {
     pub fn energy(&self) -> f64 {
         self.energy.share()
     }
+
+    /// The energy exchanged, of which [`energy`](Drift::energy) is a part: the largest T or |V − V₀| of the samples, J.
+    #[must_use]
+    pub fn exchanged(&self) -> f64 {
+        self.energy.exchanged
+    }
 }
 
 /// Measures [`Residual`]s.
@@ -103,12 +109,16 @@ impl Gauge {
     }
 }
 
-/// The largest change of the energy since the first sample, and the largest energy exchanged.
+/// Changes of the energy below this share of its terms may be rounding of these.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The largest change of the energy since the first sample, the largest energy exchanged, and the largest terms.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct EnergyDrift {
     first: Option<Energy>,
     change: f64,
     pub(crate) exchanged: f64,
+    terms: f64,
 }
 
 impl EnergyDrift {
@@ -122,15 +132,22 @@ impl EnergyDrift {
         self.exchanged = nan_max(self.exchanged, now.kinetic.abs());
         self.exchanged = nan_max(self.exchanged, gained.abs());
         let terms = now.kinetic + now.potential.abs() + first.potential.abs();
+        self.terms = nan_max(self.terms, terms);
         (change, terms)
     }
 
-    /// The change as a share of the energy exchanged; as it is where nothing moves.
+    /// The change as a share of the energy exchanged; where it may be rounding of the energies, as a share of these, if they are larger. As it
+    /// is where nothing moves.
     pub(super) fn share(&self) -> f64 {
-        if self.exchanged == 0.0 {
+        let rounding = self.change <= ROUNDING * self.terms;
+        let size = match rounding {
+            true => nan_max(self.terms, self.exchanged),
+            false => self.exchanged,
+        };
+        if size == 0.0 {
             self.change
         } else {
-            self.change / self.exchanged
+            self.change / size
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::{Sample, Trajectory};
 use crate::diagnosis::{Relation, measured_rows, relations};
 use crate::error::Error;
-use crate::inverse::{Effort, inverse};
+use crate::inverse::{Effort, Inverse};
 use crate::solver::{Solution, Solver};
 
 impl Trajectory {
@@ -37,11 +37,9 @@ impl Trajectory {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name; what the solver reports, with the sample ([`Error::At`]).
     pub fn efforts(&self, motors: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
-        for name in motors {
-            self.spec().constraint_indices(name)?;
-        }
+        let mut inverse = Inverse::new(self.mechanism(), motors)?;
         let efforts = |s: Sample<'_>| {
-            let found = inverse(self.mechanism(), &s.to_state(), motors);
+            let found = inverse.efforts(&s.to_state());
             found.map_err(|error| s.locate(error))
         };
         self.samples().map(efforts).collect()

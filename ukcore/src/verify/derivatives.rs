@@ -55,25 +55,23 @@ pub(super) fn check(mech: &Prepared, declared: Declared, state: &State, found: &
 }
 
 impl Checked<'_> {
-    /// φ, or φ̇ and ψ, with their derivative along `slope` of (t, q, q̇).
-    fn rows(&self, position: bool, slope: (f64, &[f64], &[f64])) -> Vec<Dual> {
+    /// φ, or φ̇ and ψ, with their derivatives along several directions: `slope` has entry i of (t, q, q̇) in direction k.
+    fn rows(&self, position: bool, slope: impl Fn(usize, usize) -> f64) -> Vec<Sloped> {
         let spec = self.mech.spec();
         let State { t, q, v } = self.state;
-        let sloped = |x: f64, slope: f64| Sloped::new(x, Slopes::new(|_| slope));
-        let all = |x: &[f64], slopes: &[f64]| -> Vec<Sloped> {
-            let pairs = x.iter().zip(slopes);
-            pairs.map(|(x, slope)| sloped(*x, *slope)).collect()
+        let sloped = |x: &f64, i: usize| Sloped::new(*x, Slopes::new(|k| slope(i, k)));
+        let all = |x: &[f64], first: usize| -> Vec<Sloped> {
+            let entries = x.iter().zip(first..);
+            entries.map(|(x, i)| sloped(x, i)).collect()
         };
-        let (t, q, v) = (sloped(*t, slope.0), all(q, slope.1), all(v, slope.2));
+        let (t, q, v) = (sloped(t, 0), all(q, 1), all(v, 1 + q.len()));
         let count = if position { spec.holonomic } else { spec.m() };
         let mut rows = vec![Sloped::from_f64(0.0); count];
         match position {
             true => self.sloped.residual(t, &q, &mut rows),
             false => self.sloped.residual_rate(t, &q, &v, &mut rows),
         }
-        let rows = rows.into_iter();
-        rows.map(|row| Dual::new(row.re, row.eps.along(0)))
-            .collect()
+        rows
     }
 
     /// A, φ̇ and b.
@@ -84,7 +82,6 @@ impl Checked<'_> {
             return;
         }
         let row_name = |i: usize| format!("row `{}`", spec.constraints[i].name);
-        let still = vec![0.0; n];
         let mut scales = vec![0.0_f64; m];
         let entry = |i: usize, j: usize| self.terms.jacobian[j * m + i];
         let bound = |i: usize, j: usize| ROUNDING * self.rounding.jacobian[j * m + i].bound();
@@ -95,25 +92,30 @@ impl Checked<'_> {
         }
         // Σ|terms| of d/dt of each row at constant velocities.
         let mut sizes = vec![0.0_f64; m];
-        let mut unit = still.clone();
-        for j in 0..n {
-            unit[j] = 1.0;
-            let slopes = self.rows(true, (0.0, &unit, &still));
-            let rates = self.rows(false, (0.0, &still, &unit));
-            let turns = self.rows(false, (0.0, &unit, &still));
-            unit[j] = 0.0;
-            for i in 0..m {
-                let (symbol, slope) = match slopes.get(i) {
-                    Some(phi) => ("∂φ/∂q", phi.eps),
-                    None => ("∂ψ/∂q̇", rates[i].eps),
-                };
-                let place = || format!("{}, coordinate `{}`: A", row_name(i), spec.coords[j]);
-                found.compare(place, entry(i, j), (symbol, slope), scales[i]);
-                sizes[i] += (turns[i].eps * self.state.v[j]).abs();
+        for first in (0..n).step_by(Slopes::COUNT) {
+            let unit = |own: usize| move |i, k| f64::from(u8::from(i == own + first + k));
+            let (by_position, by_velocity) = (unit(1), unit(1 + n));
+            let slopes = self.rows(true, by_position);
+            let rates = self.rows(false, by_velocity);
+            let turns = self.rows(false, by_position);
+            for j in first..n.min(first + Slopes::COUNT) {
+                let along = |row: &Sloped| row.eps.along(j - first);
+                for i in 0..m {
+                    let (symbol, slope) = match slopes.get(i) {
+                        Some(phi) => ("∂φ/∂q", along(phi)),
+                        None => ("∂ψ/∂q̇", along(&rates[i])),
+                    };
+                    let place = || format!("{}, coordinate `{}`: A", row_name(i), spec.coords[j]);
+                    found.compare(place, entry(i, j), (symbol, slope), scales[i]);
+                    sizes[i] += (along(&turns[i]) * self.state.v[j]).abs();
+                }
             }
         }
         let forward = self.twice();
-        let turning = self.rows(false, (1.0, &self.state.v, &still));
+        let turning = self.rows(false, |i, _| match i {
+            0 => 1.0,
+            i => self.state.v.get(i - 1).copied().unwrap_or(0.0),
+        });
         for i in 0..m {
             let speed = largest(&self.state.v);
             let steep = (0..n).map(|j| (entry(i, j) * self.state.v[j]).abs());
@@ -126,7 +128,7 @@ impl Checked<'_> {
                     found.compare(place, turning[i].re, ("dφ/dt", slope), allowed);
                     ("−φ̈ at q̈ = 0", -phi.eps.eps)
                 }
-                None => ("−ψ̇ at q̈ = 0", -turning[i].eps),
+                None => ("−ψ̇ at q̈ = 0", -turning[i].eps.along(0)),
             };
             let own = ROUNDING * self.rounding.rhs[i].bound();
             let allowed = PART * (sizes[i] + expected.abs()) + own;

@@ -4,11 +4,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::derivatives::lagrangian;
 use super::{Declared, Findings, along, constants};
-use crate::assemble::State;
+use crate::assemble::{Residuals, State, residuals};
 use crate::equations::{uk, up};
+use crate::error::Error;
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{INDEPENDENT, decompose, null_space, units};
+use crate::modes::{INDEPENDENT, complement, decompose, measure, units};
 use crate::random::Random;
 use crate::scalar::Dual;
 use crate::scan::largest;
@@ -76,7 +77,7 @@ pub(super) fn check(
         found,
     );
     equations.reactions(mech, &solution, found);
-    power(mech, declared, state, &solution, found);
+    power(mech, declared, state, &equations.terms, &solution, found);
     equations.correction(mech, state, random, found);
     if !equations.singular {
         equations.printed(mech, &fast, found);
@@ -94,14 +95,14 @@ impl Equations {
         let measured = |x: &[f64]| DVector::from_column_slice(x).component_mul(&units);
         let (force, nonideal) = (measured(&terms.force), measured(&terms.nonideal));
         let mut jacobian = DMatrix::from_vec(m, n, terms.jacobian.clone());
-        let free = null_space(jacobian.clone(), &units);
-        let (_, pivots) = decompose(jacobian.clone(), &units);
+        let (decomposed, pivots) = decompose(jacobian.clone(), &units);
+        let free = complement(n, &decomposed, &pivots);
         let singular = (pivots.iter()).any(|x| (INDEPENDENT..SINGULAR).contains(x));
         for (j, unit) in units.iter().enumerate() {
             mass.column_mut(j).scale_mut(*unit);
             mass.row_mut(j).scale_mut(*unit);
-            jacobian.column_mut(j).scale_mut(*unit);
         }
+        measure(&mut jacobian, &units);
         let length = |i| match jacobian.row(i).norm() {
             length if length > 0.0 => length,
             _ => 1.0,
@@ -279,6 +280,7 @@ fn power(
     mech: &Prepared,
     declared: Declared,
     state: &State,
+    terms: &Evaluated,
     solution: &Solution,
     found: &mut Findings,
 ) {
@@ -302,8 +304,6 @@ fn power(
     let mut power = explicit.potential.eps - explicit.kinetic.eps;
     let mut size =
         parts.iter().map(|x| x.abs()).sum::<f64>() + forth.potential.eps.abs() + power.abs();
-    let mut terms = Evaluated::new(n, mech.spec().m());
-    terms.dynamics(mech, *t, q, v);
     for (i, rate) in v.iter().enumerate() {
         let (of_energies, parts) = lagrangian(mech, declared, state, i);
         let declared = match mech.spec().structure.forced.contains(&i) {
@@ -332,28 +332,30 @@ fn projection(mech: &Prepared, state: &State, random: &mut Random, found: &mut F
     }
     let mut projector = Projector::new(mech);
     let size = largest(&state.q).max(projector.length(state.t, &state.q, &state.v));
-    let residuals = |state: &State| {
-        let mut position = vec![0.0; spec.m()];
-        mech.residual(state.t, &state.q, &mut position[..spec.holonomic]);
-        let mut velocity = vec![0.0; spec.m()];
-        mech.residual_rate(state.t, &state.q, &state.v, &mut velocity);
-        [position, velocity]
-    };
     let mut failed = None;
     for off in OFF {
         let mut near = state.clone();
         for x in near.q.iter_mut().chain(&mut near.v) {
             *x += off * size * random.signed();
         }
-        let before = residuals(&near);
-        let projected = projector.position(near.t, &mut near.q, &near.v);
-        let projected = projected.and_then(|_| projector.velocity(near.t, &near.q, &mut near.v));
-        if let Err(error) = projected {
-            failed = Some(error);
-            continue;
-        }
-        let levels = ["position", "velocity"].into_iter().zip(before);
-        for ((level, before), after) in levels.zip(residuals(&near)) {
+        let mut projected = || -> Result<[Residuals; 2], Error> {
+            let before = residuals(mech, &near)?;
+            projector.position(near.t, &mut near.q, &near.v)?;
+            projector.velocity(near.t, &near.q, &mut near.v)?;
+            Ok([before, residuals(mech, &near)?])
+        };
+        let [before, after] = match projected() {
+            Ok(pair) => pair,
+            Err(error) => {
+                failed = Some(error);
+                continue;
+            }
+        };
+        let levels = [
+            ("position", before.position, after.position),
+            ("velocity", before.velocity, after.velocity),
+        ];
+        for (level, before, after) in levels {
             let most = largest(&before);
             for (constraint, after) in spec.constraints.iter().zip(after) {
                 let name = constraint.name;

@@ -36,16 +36,9 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
             Kind::Nonholonomic if !uses.velocity => Some(format!(
                 "constraint `{name}` contains no velocity; move it under `holonomic`"
             )),
-            _ if dynamics
-                .jacobian
-                .range((row, 0)..(row + 1, 0))
-                .next()
-                .is_none() =>
-            {
-                Some(format!(
-                    "constraint `{name}` restricts no velocity: all its derivatives are zero; remove it"
-                ))
-            }
+            _ if dynamics.row(row).next().is_none() => Some(format!(
+                "constraint `{name}` restricts no velocity: all its derivatives are zero; remove it"
+            )),
             _ => None,
         };
         if let Some(message) = message {

@@ -55,11 +55,9 @@ pub(crate) fn constants(model: &Model, system: &System, diag: &Diagnostics) -> V
     }
     for family in &model.coords {
         let positions = nested(&family.shape, &family.members);
-        let unit = family
-            .members
-            .first()
-            .map(|at| &model.coord_elements[*at].unit);
-        let unit = unit.and_then(Option::as_ref).map(Unit::si);
+        let first = family.members.first();
+        let unit = first.and_then(|at| model.coord_elements[*at].unit.as_ref());
+        let unit = unit.map(Unit::si);
         register.positions(
             "",
             "coordinate",
@@ -142,10 +140,9 @@ impl Register<'_> {
         (source, unit): (&Ident, Option<String>),
         positions: Positions,
     ) {
-        let plural = if matches!(positions, Positions::One(_)) {
-            ""
-        } else {
-            "s"
+        let plural = match positions {
+            Positions::One(_) => "",
+            Positions::Many(_) => "s",
         };
         let unit = unit.filter(|unit| !unit.is_empty());
         let unit = unit.map_or(String::new(), |unit| format!(", in {unit}"));

@@ -31,6 +31,12 @@ pub(crate) struct Dynamics {
 }
 
 impl Dynamics {
+    /// The entries of a row of A, by coordinate.
+    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, Id)> {
+        let entries = self.jacobian.range((row, 0)..(row + 1, 0));
+        entries.map(|((_, i), a)| (*i, *a))
+    }
+
     /// Adds `more` coordinates and as many constraints, with `zero` in all of their equations.
     pub(super) fn widen(&mut self, more: usize, zero: Id) {
         for vector in [&mut self.force, &mut self.nonideal, &mut self.rhs] {

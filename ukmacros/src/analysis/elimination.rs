@@ -20,9 +20,11 @@
 
 mod certificate;
 mod dropping;
+mod entry;
 mod freedoms;
 mod matrix;
 mod order;
+mod pair;
 mod pattern;
 mod rotation;
 mod solution;
@@ -274,15 +276,14 @@ pub(crate) fn eliminate(
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
-    let mut turned = residuals.clone();
-    task.turned.turn(&mut turned, g);
     let mut pull = vec![g.zero(); force.len()];
     for (row, i, weight) in weights {
         let weight = g.div(*weight, *common_factor);
         let term = g.mul(weight, residuals[*row]);
         pull[*i] = g.sub(pull[*i], term);
     }
-    let residuals = scaled(-1.0, &turned, g);
+    task.turned.turn(&mut residuals, g);
+    let residuals = scaled(-1.0, &residuals, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
     let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
@@ -366,10 +367,9 @@ fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
 
 /// The magnitude that the coefficients of all entries of a row of A share, if it is a power of two (so that dividing is exact); else 1.
 fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
-    let row = d.jacobian.range((row, 0)..(row + 1, 0));
-    let mut sizes = row.map(|(_, a)| match g.as_const(*a) {
+    let mut sizes = d.row(row).map(|(_, a)| match g.as_const(a) {
         Some(x) => x.abs(),
-        None => g.unscaled(*a).0.abs(),
+        None => g.unscaled(a).0.abs(),
     });
     match sizes.next() {
         Some(first) if is_power_of_two(first) && sizes.all(|s| s == first) => first,

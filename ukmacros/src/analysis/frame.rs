@@ -48,15 +48,10 @@ impl Frame {
         &self.coordinates
     }
 
-    /// R, column by column.
-    pub(super) fn columns(&self) -> &[Vec<Id>] {
-        &self.columns
-    }
-
     /// Rᵀ u.
     fn across(&self, u: &[Id], g: &mut Graph) -> Vec<Id> {
         let columns = self.columns.iter();
-        columns.map(|column| inner(column, u, g)).collect()
+        columns.map(|column| g.inner(column, u)).collect()
     }
 
     /// The same of one column, for a force: what is multiplied by one product of other factors is summed up first. Of T that is a rate of
@@ -91,7 +86,7 @@ impl Frame {
         let x: Vec<Id> = self.coordinates.iter().map(|i| solution[*i]).collect();
         for (j, i) in self.coordinates.iter().enumerate() {
             let row: Vec<Id> = self.columns.iter().map(|column| column[j]).collect();
-            solution[*i] = inner(&row, &x, g);
+            solution[*i] = g.inner(&row, &x);
         }
     }
 
@@ -244,7 +239,7 @@ fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Fra
         }
         taken.extend(&coordinates);
         let columns = vectors.iter().map(|vector| {
-            let square = inner(vector, vector, g);
+            let square = g.inner(vector, vector);
             let entries = vector.iter().map(|a| g.div(*a, square));
             entries.collect()
         });
@@ -286,9 +281,4 @@ fn at_right_angles(vectors: &[Vec<Id>], n: usize, defaults: &[f64], g: &Graph) -
         };
         (0..values.len()).all(one)
     })
-}
-
-fn inner(u: &[Id], v: &[Id], g: &mut Graph) -> Id {
-    let products: Vec<(f64, Id)> = u.iter().zip(v).map(|(a, b)| (1.0, g.mul(*a, *b))).collect();
-    g.factored_sum(&products)
 }

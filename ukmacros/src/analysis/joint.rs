@@ -15,7 +15,7 @@
 use super::dynamics::Dynamics;
 use super::frame::Frame;
 use super::probe::{Probe, Random};
-use super::redundant::met;
+use super::redundant::Level;
 use crate::expr::{Graph, Id, Sweep};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,7 +49,8 @@ impl Joint {
     pub(super) fn solve(&self, values: &mut [Id], g: &mut Graph) {
         let own: Vec<Id> = self.rows.iter().map(|row| values[*row]).collect();
         for (row, inverse) in self.rows.iter().zip(&self.inverse) {
-            values[*row] = combined(inverse, &own, g);
+            let value = g.inner(inverse, &own);
+            values[*row] = g.hold_inner(value);
         }
     }
 
@@ -95,10 +96,8 @@ impl Joint {
             inverse: inverse.collect(),
             share: [g.square(determinant), g.product(&lengths)],
         };
-        let columns = rows.iter().flat_map(|row| {
-            let row = d.jacobian.range((*row, 0)..(*row + 1, 0));
-            row.map(|((_, i), _)| *i)
-        });
+        let columns = rows.iter().flat_map(|row| d.row(*row));
+        let columns = columns.map(|(i, _)| i);
         let columns: BTreeSet<usize> = columns.collect();
         for i in columns {
             let place = chosen.iter().position(|k| of[*k] == i);
@@ -108,7 +107,10 @@ impl Joint {
                 let value = match place {
                     Some(at) if at == k => g.one(),
                     Some(_) => zero,
-                    None => combined(&joint.inverse[k], &values, g),
+                    None => {
+                        let value = g.inner(&joint.inverse[k], &values);
+                        g.hold_inner(value)
+                    }
                 };
                 match g.is_zero(value) {
                     true => drop(d.jacobian.remove(&(*row, i))),
@@ -119,15 +121,6 @@ impl Joint {
         joint.solve(&mut d.rhs, g);
         joint
     }
-}
-
-/// Σ a b, as one value.
-fn combined(a: &[Id], b: &[Id], g: &mut Graph) -> Id {
-    let products: Vec<(f64, Id)> = a.iter().zip(b).map(|(a, b)| (1.0, g.mul(*a, *b))).collect();
-    let sum = g.factored_sum(&products);
-    let (c, sum) = g.unscaled(sum);
-    let sum = g.hold_whole(sum);
-    g.scale(c, sum)
 }
 
 /// `w` without its row `r` and its column `k`.
@@ -168,15 +161,12 @@ pub(super) fn joints(
     // Which of rows that imply each other are left out is decided at run time: they stay apart.
     groups.retain(|_, rows| rows.iter().all(|row| !redundant.contains(row)));
     for (rows, ends) in outwards(groups, frames.len()) {
-        let far = &frames[ends[1]];
         let between = Rows {
             rows: &rows,
-            far,
             frames: ends.map(|k| &frames[k]),
         };
-        if let Some(chosen) = between.rates(held, defaults, g) {
-            let rates = &far.coordinates()[1..];
-            found.push(Joint::new(&rows, rates, &chosen, d, g));
+        if let Some(chosen) = between.rates(d, held, defaults, g) {
+            found.push(Joint::new(&rows, between.far(), &chosen, d, g));
         }
     }
     found
@@ -190,19 +180,14 @@ fn groups(held: &Dynamics, frames: &[Frame]) -> BTreeMap<[Option<usize>; 2], Vec
     }
     let mut groups: BTreeMap<[Option<usize>; 2], Vec<usize>> = BTreeMap::new();
     for row in (0..held.phi.len()).filter(|row| frames.iter().all(|f| f.row() != *row)) {
-        let entries = held.jacobian.range((row, 0)..(row + 1, 0));
-        let met: Option<BTreeSet<usize>> = entries.map(|((_, i), _)| of[*i]).collect();
-        match met
-            .map(|met| met.into_iter().collect::<Vec<usize>>())
-            .as_deref()
-        {
-            Some([one]) => groups.entry([None, Some(*one)]).or_default().push(row),
-            Some([one, two]) => groups
-                .entry([Some(*one), Some(*two)])
-                .or_default()
-                .push(row),
-            _ => {}
-        }
+        let met: Option<BTreeSet<usize>> = held.row(row).map(|(i, _)| of[i]).collect();
+        let met: Vec<usize> = met.into_iter().flatten().collect();
+        let ends = match met[..] {
+            [one] => [None, Some(one)],
+            [one, two] => [Some(one), Some(two)],
+            _ => continue,
+        };
+        groups.entry(ends).or_default().push(row);
     }
     groups
 }
@@ -240,49 +225,52 @@ fn outwards(
 /// Rows between two frames, or one and what does not move.
 struct Rows<'a> {
     rows: &'a [usize],
-    /// Whose rates they are to be solved for.
-    far: &'a Frame,
+    /// They are to be solved for rates of the second.
     frames: [&'a Frame; 2],
 }
 
-impl Rows<'_> {
-    /// The rates, by their places among those of the frame, for which the rows can be solved wherever they are met.
-    fn rates(&self, held: &Dynamics, defaults: &[f64], g: &Graph) -> Option<Vec<usize>> {
-        let choices = choices(self.rows.len())?;
-        let own = self.far.coordinates();
-        let columns = self.far.columns()[1..].iter();
-        let columns: Vec<Id> = columns.flatten().copied().collect();
+impl<'a> Rows<'a> {
+    /// The places of the rates that they are to be solved for.
+    fn far(&self) -> &'a [usize] {
+        &self.frames[1].coordinates()[1..]
+    }
+
+    /// The rates, by their places among those of the frame, for which the rows can be solved wherever they are met; `d` has the rates.
+    fn rates(
+        &self,
+        d: &Dynamics,
+        held: &Dynamics,
+        defaults: &[f64],
+        g: &Graph,
+    ) -> Option<Vec<usize>> {
+        let far = self.far();
+        let choices = choices(self.rows.len(), far.len());
+        if choices.is_empty() {
+            return None;
+        }
         let entries = self
             .rows
             .iter()
-            .flat_map(|row| own.iter().map(|i| (*row, *i)));
-        let entries = entries.map(|at| held.jacobian.get(&at).copied());
+            .flat_map(|row| far.iter().map(|i| (*row, *i)));
+        let entries = entries.map(|at| d.jacobian.get(&at).copied());
         let entries: Vec<Option<Id>> = entries.collect();
-        let roots: Vec<Id> = columns
-            .iter()
-            .copied()
-            .chain(entries.iter().flatten().copied())
-            .collect();
+        let roots: Vec<Id> = entries.iter().flatten().copied().collect();
         let mut sweep = Sweep::new(g, &roots);
+        let mut level = self.level(held, g);
         let mut random = Random::new(8);
         let mut shares: Vec<Vec<f64>> = vec![Vec::new(); choices.len()];
         for _ in 0..STATES {
-            let probe = Probe::signed(defaults, held.force.len(), &mut random);
-            let probe = self.met(probe, held, g)?;
-            let values = sweep.at(g, &probe.point());
-            let (columns, mut values) = (&values[..columns.len()], values[columns.len()..].iter());
-            let entries = entries
-                .iter()
-                .map(|a| a.map_or(Some(0.0), |_| values.next().copied()));
+            let mut probe = Probe::signed(defaults, held.force.len(), &mut random);
+            if !level.met(&mut probe, g) {
+                return None;
+            }
+            let mut values = sweep.at(g, &probe.point()).into_iter();
+            let entries = entries.iter();
+            let entries = entries.map(|a| a.map_or(Some(0.0), |_| values.next()));
             let entries: Vec<f64> = entries.collect::<Option<_>>()?;
-            let along = |row: &[f64], column: &[f64]| -> f64 {
-                row.iter().zip(column).map(|(a, c)| a * c).sum()
-            };
-            let rows = entries.chunks(own.len());
-            let rows = rows.map(|row| columns.chunks(own.len()).map(|c| along(row, c)).collect());
-            let rows: Vec<Vec<f64>> = rows.collect();
-            let lengths = rows.iter().map(|row| along(row, row).sqrt());
-            let whole: f64 = lengths.product();
+            let rows: Vec<&[f64]> = entries.chunks(far.len()).collect();
+            let length = |row: &&[f64]| row.iter().map(|a| a * a).sum::<f64>().sqrt();
+            let whole: f64 = rows.iter().map(length).product();
             for (choice, shares) in choices.iter().zip(&mut shares) {
                 shares.push(numeric(&rows, choice).abs() / whole);
             }
@@ -295,32 +283,32 @@ impl Rows<'_> {
         Some(choices[best].clone())
     }
 
-    /// A state near `probe` at which the rows are met.
-    fn met<'p>(&self, probe: Probe<'p>, held: &Dynamics, g: &Graph) -> Option<Probe<'p>> {
+    /// The rows, and what both frames have of their own.
+    fn level(&self, held: &Dynamics, g: &Graph) -> Level {
         let units = self.frames.map(Frame::row);
         let all: BTreeSet<usize> = self.rows.iter().copied().chain(units).collect();
         let phi: Vec<Id> = all.iter().map(|row| held.phi[*row]).collect();
-        let jacobian = all.iter().enumerate().flat_map(|(k, row)| {
-            let entries = held.jacobian.range((*row, 0)..(*row + 1, 0));
-            entries.map(move |((_, i), a)| ((k, *i), *a))
-        });
-        met(&phi, &jacobian.collect(), probe, g)
+        let jacobian = all.iter().enumerate();
+        let jacobian = jacobian.flat_map(|(k, row)| held.row(*row).map(move |(i, a)| ((k, i), a)));
+        Level::new(&jacobian.collect(), &phi, g)
     }
 }
 
-/// Which of three rates as many rows may be solved for.
-fn choices(rows: usize) -> Option<Vec<Vec<usize>>> {
+/// Which of the first `rates` of turning as many rows may be solved for: three at most, as a body in space has.
+fn choices(rows: usize, rates: usize) -> Vec<Vec<usize>> {
     let choices: &[&[usize]] = match rows {
         1 => &[&[0], &[1], &[2]],
         2 => &[&[0, 1], &[0, 2], &[1, 2]],
         3 => &[&[0, 1, 2]],
-        _ => return None,
+        _ => &[],
     };
-    Some(choices.iter().map(|choice| choice.to_vec()).collect())
+    let there = |choice: &&&[usize]| choice.iter().all(|rate| *rate < rates);
+    let choices = choices.iter().filter(there);
+    choices.map(|choice| choice.to_vec()).collect()
 }
 
 /// The determinant of the columns `chosen`.
-fn numeric(rows: &[Vec<f64>], chosen: &[usize]) -> f64 {
+fn numeric(rows: &[&[f64]], chosen: &[usize]) -> f64 {
     let Some((first, rest)) = rows.split_first() else {
         return 1.0;
     };

@@ -58,21 +58,8 @@ pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<u
     found
 }
 
-/// `probe` with q moved to where the constraints `phi` of the given Jacobian are met, if it gets there.
-pub(super) fn met<'a>(
-    phi: &[Id],
-    jacobian: &BTreeMap<(usize, usize), Id>,
-    mut probe: Probe<'a>,
-    g: &Graph,
-) -> Option<Probe<'a>> {
-    let mut level = Level::new(jacobian, phi, g);
-    let mut left = WORK;
-    level.settle(&mut probe, true, &mut left, g)?;
-    Some(probe)
-}
-
 /// The constraints of one level as equations for q, or for q̇.
-struct Level {
+pub(super) struct Level {
     sweep: Sweep,
     rows: usize,
     /// Where the entries of A are, in the order of the sweep behind the residuals.
@@ -88,7 +75,11 @@ struct Place {
 }
 
 impl Level {
-    fn new(jacobian: &BTreeMap<(usize, usize), Id>, residuals: &[Id], g: &Graph) -> Self {
+    pub(super) fn new(
+        jacobian: &BTreeMap<(usize, usize), Id>,
+        residuals: &[Id],
+        g: &Graph,
+    ) -> Self {
         let rows = residuals.len();
         let entries: Vec<_> = jacobian.range((0, 0)..(rows, 0)).collect();
         let roots = residuals.iter().chain(entries.iter().map(|(_, id)| *id));
@@ -97,6 +88,12 @@ impl Level {
             rows,
             entries: entries.into_iter().map(|(at, _)| *at).collect(),
         }
+    }
+
+    /// Moves q of `probe` to where the constraints are met; whether it gets there.
+    pub(super) fn met(&mut self, probe: &mut Probe<'_>, g: &Graph) -> bool {
+        let mut left = WORK;
+        self.settle(probe, true, &mut left, g).is_some()
     }
 
     fn evaluate(&mut self, probe: &Probe<'_>, g: &Graph) -> Place {

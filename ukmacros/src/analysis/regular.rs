@@ -105,7 +105,7 @@ impl Regular {
 
     /// Adds μ aᵀa to M and μ aᵀb to Q.
     fn add(&mut self, row: usize, block: &Block, d: &Dynamics, g: &mut Graph) {
-        let entries: Vec<(usize, Id)> = entries(row, d).collect();
+        let entries: Vec<(usize, Id)> = d.row(row).collect();
         let within = |(i, _): &&(usize, Id)| block.coordinates.contains(i);
         let own = || entries.iter().filter(within);
         let trace: Vec<(f64, Id)> = own().map(|(i, _)| (1.0, d.mass[&(*i, *i)])).collect();
@@ -143,12 +143,6 @@ struct Block {
     constant: bool,
     /// The constraints on them.
     rows: BTreeSet<usize>,
-}
-
-/// The coefficients of `row`.
-fn entries(row: usize, d: &Dynamics) -> impl Iterator<Item = (usize, Id)> {
-    let entries = d.jacobian.range((row, 0)..(row + 1, 0));
-    entries.map(|((_, i), a)| (*i, *a))
 }
 
 /// The blocks of M that may be singular without being zero, and that constraints act on.
@@ -226,11 +220,11 @@ impl<'a> States<'a> {
         }
         // Rows that may be added: with inertia at each of their coordinates.
         let inert = |i: usize| d.mass.contains_key(&(i, i));
-        let usable = |row: &&usize| entries(**row, d).all(|(i, _)| inert(i));
+        let usable = |row: &&usize| d.row(**row).all(|(i, _)| inert(i));
         let candidates: Vec<usize> = block.rows.iter().filter(usable).copied().collect();
         let mut all = present;
         for row in &candidates {
-            let own = entries(*row, d).filter(|(i, _)| block.coordinates.contains(i));
+            let own = d.row(*row).filter(|(i, _)| block.coordinates.contains(i));
             all.extend(own.map(|(_, a)| a));
         }
         let values: Vec<Vec<f64>> = probes.iter().map(|p| eval(g, &all, &p.point())).collect();
@@ -254,7 +248,7 @@ impl<'a> States<'a> {
             matrices.push(matrix.collect::<Vec<f64>>());
             for (row, at) in &mut states.rows {
                 let mut dense = vec![0.0; k];
-                for (i, _) in entries(*row, d) {
+                for (i, _) in d.row(*row) {
                     if let Ok(place) = block.coordinates.binary_search(&i) {
                         dense[place] = value();
                     }
@@ -301,7 +295,7 @@ impl<'a> States<'a> {
     fn restoring(&self, block: &Block, d: &Dynamics) -> (Vec<usize>, bool) {
         let k = block.coordinates.len();
         let outside = |row: usize| {
-            let others = entries(row, d).filter(|(i, _)| !block.coordinates.contains(i));
+            let others = d.row(row).filter(|(i, _)| !block.coordinates.contains(i));
             others.count()
         };
         let mut chosen: Vec<usize> = Vec::new();

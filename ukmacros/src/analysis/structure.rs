@@ -27,9 +27,10 @@ pub(crate) struct Structure {
 pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let n = dynamics.force.len();
     let homogeneous = homogeneous(system);
-    let quadratic = match system.kinetic {
-        Some((kinetic, _)) => quadratic(kinetic, &mut system.graph),
-        None => true,
+    let quadratic = match (system.kinetic, &dynamics.lift) {
+        // A sum of products of velocities that are linear in q̇ without a rest.
+        (_, Some(_)) | (None, _) => true,
+        (Some((kinetic, _)), None) => quadratic(kinetic, &mut system.graph),
     };
     let g = &system.graph;
     let massive: BTreeSet<usize> = dynamics.mass.keys().flat_map(|(r, c)| [*r, *c]).collect();

@@ -56,19 +56,24 @@ fn equations(listing: &Listing) -> String {
             }
         };
         for (k, block) in blocks.iter().enumerate() {
-            let length: usize = block.texts().iter().map(String::len).sum();
+            if hidden.contains(&k) && k > hidden.start {
+                continue;
+            }
             if block.rows.len() > 1 {
                 close(&mut paragraph);
             }
-            if k == hidden.start && !hidden.is_empty() {
+            if hidden.contains(&k) {
                 let hidden = hidden.len();
                 paragraph.push(format!(
                     "… {hidden} more, which <code>Explanation::new</code> shows …"
                 ));
-            } else if length > LENGTH {
+                continue;
+            }
+            let length: usize = block.texts().iter().map(String::len).sum();
+            if length > LENGTH {
                 paragraph
                     .push("… a long one, which <code>Explanation::new</code> shows …".to_owned());
-            } else if !hidden.contains(&k) {
+            } else {
                 paragraph.extend(block.mathml());
             }
         }

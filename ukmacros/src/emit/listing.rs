@@ -87,10 +87,9 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
             }
         };
         let first = Formula::Labelled(title, Box::new(zero));
-        let entries = dynamics.jacobian.range((row, 0)..(row + 1, 0));
-        let entries = entries.map(|((_, j), id)| {
-            let entry = Formula::Entry("A", vec![label(), name(&coords[*j])]);
-            entry.equal(printer.formula(*id))
+        let entries = dynamics.row(row).map(|(j, id)| {
+            let entry = Formula::Entry("A", vec![label(), name(&coords[j])]);
+            entry.equal(printer.formula(id))
         });
         let b = Formula::Entry("b", vec![label()]).equal(printer.formula(dynamics.rhs[row]));
         Block::from(

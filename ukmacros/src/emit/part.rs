@@ -4,8 +4,8 @@ use crate::parse::{Declaration, PartUse, Table};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-/// The macro, called as the type is, that hands the tokens of the declaration and those of its parts on to another. There may be an error in
-/// them, which is told.
+/// The macro, called as the type is, that hands the tokens of the declaration and those of its parts on to another, or, where it is no part,
+/// that it is none. There may be an error in the tokens, which is told.
 pub(crate) fn part(
     decl: &Declaration,
     tokens: &TokenStream,
@@ -13,22 +13,35 @@ pub(crate) fn part(
     faulty: bool,
 ) -> TokenStream {
     let (vis, name, parts) = (&decl.vis, &decl.name, &table.tokens);
+    let public = vis.to_string() == "pub";
+    let export = (public && decl.part).then(|| quote! { #[macro_export] });
+    let vis = match public && !decl.part {
+        true => quote! { pub(crate) },
+        false => vis.clone(),
+    };
+    let (handed, parts) = match (decl.part, faulty) {
+        (false, _) => (quote! { ? }, TokenStream::new()),
+        (true, true) => (quote! { ! #tokens }, parts.clone()),
+        (true, false) => (tokens.clone(), parts.clone()),
+    };
     // An exported macro stands at the root of its crate, whatever module it is declared in: its name tells the place.
-    let place = format!("{:?} {tokens}", name.span());
-    let number = place.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    let own = format_ident!("__part_{name}_{number:016x}");
-    let exported = vis.to_string() == "pub";
-    let mark = faulty.then(|| quote! { ! });
-    let export = exported.then(|| quote! { #[macro_export] });
+    let own = match decl.part {
+        false => format_ident!("__part_{name}"),
+        true => {
+            let place = format!("{:?} {tokens}", name.span());
+            let number = place.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+            });
+            format_ident!("__part_{name}_{number:016x}")
+        }
+    };
     quote! {
         #export
         #[doc(hidden)]
         #[allow(unused_macros, non_local_definitions)]
         macro_rules! #own {
             (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
-                $($callback)* ! { @parts [$($known)* { $($path)* } { #mark #tokens } { #parts }] $($rest)* }
+                $($callback)* ! { @parts [$($known)* { $($path)* } { #handed } { #parts }] $($rest)* }
             };
         }
         #[doc(hidden)]

@@ -149,7 +149,7 @@ impl Recorder<'_> {
                         Place::Element(slice, at) => {
                             let slice = function.slices.iter().position(|(s, _)| *s == slice);
                             let slice = Word::Plain(slice.unwrap_or_default());
-                            let [low, high] = halves(at);
+                            let [low, high] = halves(at).map(Word::Plain);
                             (b'=', vec![slice, low, high, value])
                         }
                         _ => (b'.', vec![value]),
@@ -330,8 +330,7 @@ impl Recorder<'_> {
             match n {
                 1..=3 => side.extend(std::iter::repeat_n(place, n)),
                 _ => {
-                    let n = [n & 0xFFFF, n >> 16];
-                    side.push(self.instruction(b'p', &[], &[place], &n));
+                    side.push(self.instruction(b'p', &[], &[place], &halves(n)));
                 }
             }
         }
@@ -339,14 +338,13 @@ impl Recorder<'_> {
     }
 
     fn quotient(&mut self, above: &[Operand], below: &[Operand]) -> Operand {
-        let (top, bottom) = (!above.is_empty(), !below.is_empty());
-        match (top, bottom) {
-            (_, false) => self.chain(above),
-            (false, true) => {
+        match (above, below) {
+            (above, []) => self.chain(above),
+            ([], below) => {
                 let below = self.chain(below);
                 self.compute(b'i', &[below])
             }
-            (true, true) => {
+            (above, below) => {
                 let sides = [self.chain(above), self.chain(below)];
                 self.compute(b'/', &sides)
             }
@@ -418,6 +416,6 @@ impl Recorder<'_> {
 }
 
 /// The two words of a number.
-fn halves(at: usize) -> [Word; 2] {
-    [Word::Plain(at & 0xFFFF), Word::Plain(at >> 16)]
+fn halves(n: usize) -> [usize; 2] {
+    [n & 0xFFFF, n >> 16]
 }

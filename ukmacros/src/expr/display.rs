@@ -107,10 +107,7 @@ impl Printer<'_> {
             1.0 => inner,
             k => Formula::Product(vec![Formula::Number(k), inner], Vec::new()),
         };
-        match c < 0.0 {
-            true => magnitude.negative(),
-            false => magnitude,
-        }
+        magnitude.signed(c)
     }
 
     fn product(&self, coefficient: f64, factors: &[(Id, i32)]) -> Formula {
@@ -137,16 +134,10 @@ impl Printer<'_> {
         if magnitude != 1.0 || above.is_empty() {
             above.insert(0, Formula::Number(magnitude));
         }
-        let product = match (below.is_empty(), above.pop()) {
-            (true, Some(one)) if above.is_empty() => one,
-            (_, last) => {
-                above.extend(last);
-                Formula::Product(above, below)
-            }
+        let product = match (above.len(), below.is_empty()) {
+            (1, true) => above.remove(0),
+            _ => Formula::Product(above, below),
         };
-        match coefficient < 0.0 {
-            true => product.negative(),
-            false => product,
-        }
+        product.signed(coefficient)
     }
 }

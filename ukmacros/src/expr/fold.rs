@@ -77,8 +77,7 @@ impl Graph {
     /// Σ coefficient · term. Sums among the terms stay sums, as parentheses do.
     pub(crate) fn sum(&mut self, terms: &[(f64, Id)]) -> Id {
         let mut constant = 0.0;
-        let mut collected: Vec<(f64, Id)> = Vec::with_capacity(terms.len());
-        let mut place: Map<Id, usize> = Map::default();
+        let mut collected: Collected<f64> = Collected::default();
         for &(c, id) in terms {
             if let Some(x) = self.as_const(id) {
                 constant += c * x;
@@ -90,10 +89,9 @@ impl Graph {
                 None => (c, self.keep(id)),
             };
             loop {
-                match place.get(&inner).map(|at| &mut collected[*at].0) {
+                match collected.get_mut(inner) {
                     None => {
-                        place.insert(inner, collected.len());
-                        collected.push((c, inner));
+                        collected.push(inner, c);
                         break;
                     }
                     Some(known) if (*known + c).is_finite() => {
@@ -107,22 +105,23 @@ impl Graph {
                 }
             }
         }
-        collected.retain(|(c, _)| *c != 0.0);
-        collected.sort_by_key(|(_, id)| *id);
+        let mut collected = collected.list;
+        collected.retain(|(_, c)| *c != 0.0);
+        collected.sort_by_key(|(id, _)| *id);
         match collected.as_slice() {
             [] => return self.constant(constant),
-            [(c, id)] if constant == 0.0 => return self.scale(*c, *id),
+            [(id, c)] if constant == 0.0 => return self.scale(*c, *id),
             _ => {}
         }
         let mut factor = 1.0;
         if constant == 0.0 {
-            let first = collected[0].0;
-            let alike = collected.iter().all(|(c, _)| c.abs() == first.abs());
-            let sizes = collected.iter().map(|(c, _)| c.abs());
+            let first = collected[0].1;
+            let alike = collected.iter().all(|(_, c)| c.abs() == first.abs());
+            let sizes = collected.iter().map(|(_, c)| c.abs());
             let least = sizes.fold(f64::INFINITY, f64::min);
             // 2 x − 8 y is 2 (x − 4 y): exact for powers of two.
             let power = least > 1.0 && is_power_of_two(least);
-            let multiples = collected.iter().all(|(c, _)| (c / least).fract() == 0.0);
+            let multiples = collected.iter().all(|(_, c)| (c / least).fract() == 0.0);
             factor = if alike {
                 first
             } else if power && multiples {
@@ -132,7 +131,7 @@ impl Graph {
             };
         }
         let terms = collected.iter();
-        let terms = terms.map(|(c, id)| (Num::new(c / factor), *id));
+        let terms = terms.map(|(id, c)| (Num::new(c / factor), *id));
         let sum = Node::Sum(Num::new(constant), terms.collect());
         let sum = self.intern(sum);
         self.scale(factor, sum)
@@ -193,6 +192,13 @@ impl Graph {
         self.scale(c, product)
     }
 
+    /// Σ u v, with the factors that all products share in front.
+    pub(crate) fn inner(&mut self, u: &[Id], v: &[Id]) -> Id {
+        let pairs = u.iter().zip(v);
+        let products: Vec<(f64, Id)> = pairs.map(|(u, v)| (1.0, self.mul(*u, *v))).collect();
+        self.factored_sum(&products)
+    }
+
     /// c · id as terms of a sum: a sum is opened. For what the compiler derives, not for what a user grouped.
     pub(crate) fn open(&mut self, c: f64, id: Id) -> Vec<(f64, Id)> {
         let (k, inner) = self.unscaled(id);
@@ -235,7 +241,7 @@ impl Graph {
     /// Π factor^exponent.
     pub(crate) fn product(&mut self, factors: &[(Id, i32)]) -> Id {
         let mut coefficient = 1.0;
-        let mut collected = Factors::default();
+        let mut collected = Collected::default();
         for &(id, exponent) in factors {
             if exponent == 0 {
                 continue;
@@ -261,7 +267,7 @@ impl Graph {
                 None if inner.is_none() => {
                     let so_far = self.close(coefficient, collected);
                     let whole = self.keep(so_far);
-                    collected = Factors::default();
+                    collected = Collected::default();
                     collected.enter(whole, 1);
                     coefficient = power;
                 }
@@ -279,7 +285,7 @@ impl Graph {
     }
 
     /// `inner`^exponent into `collected`: a product is opened where that stays in bounds.
-    fn enter(&mut self, inner: Id, exponent: i32, collected: &mut Factors) {
+    fn enter(&mut self, inner: Id, exponent: i32, collected: &mut Collected<i32>) {
         let opened = match self.opened(inner) {
             Some(factors) => factors,
             None => vec![(self.keep(inner), 1)],
@@ -314,7 +320,7 @@ impl Graph {
         }
     }
 
-    fn close(&mut self, coefficient: f64, collected: Factors) -> Id {
+    fn close(&mut self, coefficient: f64, collected: Collected<i32>) -> Id {
         let mut factors = collected.list;
         self.take_signs(&mut factors);
         factors.retain(|(_, e)| *e != 0);
@@ -462,6 +468,13 @@ impl Graph {
         self.scale(c.signum(), product)
     }
 
+    /// `id` as one value, with its coefficient outside: see [`Graph::hold_whole`].
+    pub(crate) fn hold_inner(&mut self, id: Id) -> Id {
+        let (c, inner) = self.unscaled(id);
+        let inner = self.hold_whole(inner);
+        self.scale(c, inner)
+    }
+
     /// `id` with its coefficient as one value, with factors of parameters.
     pub(crate) fn hold_all(&mut self, id: Id) -> Id {
         let (c, inner) = self.unscaled(id);
@@ -494,17 +507,47 @@ impl Graph {
     }
 }
 
-/// Factors of a product, each base once.
+/// Terms with their coefficients, or factors with their exponents: each once, in the order of their coming.
 #[derive(Default)]
-struct Factors {
-    list: Vec<(Id, i32)>,
+struct Collected<T> {
+    list: Vec<(Id, T)>,
+    /// Their places; nothing as long as they are few.
     place: Map<Id, usize>,
 }
 
-impl Factors {
+/// So many are looked through faster than a map finds one of them.
+const FEW: usize = 16;
+
+impl<T> Collected<T> {
+    fn get_mut(&mut self, id: Id) -> Option<&mut T> {
+        let at = self.find(id)?;
+        Some(&mut self.list[at].1)
+    }
+
+    fn find(&self, id: Id) -> Option<usize> {
+        match self.list.len() {
+            0..=FEW => self.list.iter().position(|(known, _)| *known == id),
+            _ => self.place.get(&id).copied(),
+        }
+    }
+
+    /// Adds what is not there.
+    fn push(&mut self, id: Id, value: T) {
+        self.list.push((id, value));
+        let new = match self.list.len() {
+            0..=FEW => return,
+            len if len == FEW + 1 => 0,
+            len => len - 1,
+        };
+        let new = self.list.iter().enumerate().skip(new);
+        self.place.extend(new.map(|(at, (id, _))| (*id, at)));
+    }
+}
+
+impl Collected<i32> {
     /// Whether base^e can be entered.
     fn takes(&self, base: Id, e: i32) -> bool {
-        let known = self.place.get(&base).map_or(0, |at| self.list[*at].1);
+        let known = self.find(base).map_or(0, |at| self.list[at].1);
         let sum = known.checked_add(e);
         sum.is_some_and(|sum| (-MAX_EXPONENT..=MAX_EXPONENT).contains(&sum))
     }
@@ -513,10 +556,9 @@ impl Factors {
     fn enter(&mut self, base: Id, e: i32) -> bool {
         let fits = self.takes(base, e);
         if fits {
-            let at = *self.place.entry(base).or_insert(self.list.len());
-            match self.list.get_mut(at) {
-                Some((_, known)) => *known += e,
-                None => self.list.push((base, e)),
+            match self.get_mut(base) {
+                Some(known) => *known += e,
+                None => self.push(base, e),
             }
         }
         fits

@@ -64,6 +64,14 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         let Some(known) = table.find(&member.part.path) else {
             continue;
         };
+        if !known.is_part {
+            let message = format!(
+                "`{0}` is no part; write `#[ukcore(part)]` before `{0}` where it is declared",
+                member.part.name
+            );
+            diag.error(member.part.name.span(), message);
+            break;
+        }
         whole.decl.merged.faulty |= known.faulty;
         let Some(mut inner) = parse(known.declaration.clone(), &inside) else {
             continue;
@@ -253,7 +261,9 @@ impl Whole<'_> {
             let full = format!("{prefix}_{name}");
             (name, full)
         });
-        let mut renaming = Renaming::new(names, constraints.collect(), self.own.clone(), span);
+        let constraints = constraints.collect();
+        let parts = inner.merged.families.keys().cloned().collect();
+        let mut renaming = Renaming::new(names, constraints, parts, self.own.clone(), span);
         self.values(&mut inner, member, &fixed, &mut renaming);
         self.bodies(&mut inner, &mut renaming);
         self.equations(inner, &prefix, &mut renaming);

@@ -64,6 +64,8 @@ pub(super) struct Renaming {
     names: HashMap<String, String>,
     /// Those of constraints, which [`LOADS`] alone use.
     constraints: HashMap<String, String>,
+    /// Names of parts.
+    parts: HashSet<String>,
     /// Arguments of the functions around.
     hidden: Vec<String>,
     /// What the whole declares by `let`, and the ground if it declares one: names of the vocabulary that the part means otherwise.
@@ -77,12 +79,14 @@ impl Renaming {
     pub(super) fn new(
         names: HashMap<String, String>,
         constraints: HashMap<String, String>,
+        parts: HashSet<String>,
         own: Rc<HashSet<String>>,
         span: Span,
     ) -> Self {
         Renaming {
             names,
             constraints,
+            parts,
             hidden: Vec::new(),
             own,
             clash: None,
@@ -137,6 +141,20 @@ impl Renaming {
         }
     }
 
+    /// Whether the function that is called with `args` is of a part: `foot.f(x)`.
+    fn of_part(&self, args: &[Expr]) -> bool {
+        let part = match args.first().map(|first| &first.kind) {
+            Some(ExprKind::Index(base, _)) => &base.kind,
+            Some(kind) => kind,
+            None => return false,
+        };
+        let ExprKind::Name(part) = part else {
+            return false;
+        };
+        let text = part.to_string();
+        self.parts.contains(&text) && !self.hidden.contains(&text)
+    }
+
     fn exprs(&mut self, list: &mut [Expr]) {
         list.iter_mut().for_each(|e| self.expr(e));
     }
@@ -162,10 +180,14 @@ impl Renaming {
                 rest.iter_mut().for_each(|(_, operand)| self.expr(operand));
             }
             ExprKind::Call(name, args) => {
-                // Arguments hide values, not functions.
-                let hidden = std::mem::take(&mut self.hidden);
-                self.name(name);
-                self.hidden = hidden;
+                if self.of_part(args) {
+                    name.set_span(self.span);
+                } else {
+                    // Arguments hide values, not functions.
+                    let hidden = std::mem::take(&mut self.hidden);
+                    self.name(name);
+                    self.hidden = hidden;
+                }
                 if LOADS.iter().any(|load| name == load) {
                     args.iter_mut().for_each(|arg| self.constraint(arg));
                 }

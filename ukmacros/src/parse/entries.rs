@@ -285,12 +285,7 @@ pub(super) fn start(
     if input.peek(syn::token::Paren) {
         let list;
         parenthesized!(list in input);
-        while !list.is_empty() {
-            options.push(start_option(&list, diag)?);
-            if !list.is_empty() {
-                let _: Token![,] = list.parse()?;
-            }
-        }
+        options = listed(&list, |list| start_option(list, diag))?;
     }
     let mut until = None;
     if input.peek(syn::Ident) {
@@ -320,6 +315,19 @@ pub(super) fn start(
         until,
         guesses,
     })
+}
+
+/// All that is left of `input`; commas may be left out where the next entry starts with a name, as in sections.
+fn listed<T>(
+    input: ParseStream<'_>,
+    mut entry: impl FnMut(ParseStream<'_>) -> syn::Result<T>,
+) -> syn::Result<Vec<T>> {
+    let mut entries = Vec::new();
+    while !input.is_empty() {
+        entries.push(entry(input)?);
+        let _: Option<Token![,]> = input.parse()?;
+    }
+    Ok(entries)
 }
 
 fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
@@ -403,13 +411,7 @@ fn guessed(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<(Vec<Key>,
     }
     let list;
     let bracket = bracketed!(list in input);
-    let mut keys = Vec::new();
-    while !list.is_empty() {
-        keys.push(coordinates(&list, diag)?);
-        if !list.is_empty() {
-            let _: Token![,] = list.parse()?;
-        }
-    }
+    let keys = listed(&list, |list| coordinates(list, diag))?;
     match keys.is_empty() {
         true => Err(syn::Error::new(
             bracket.span.join(),
@@ -428,16 +430,14 @@ pub(super) fn shape(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<S
     }
     let list;
     parenthesized!(list in input);
-    let (mut args, mut label) = (Vec::new(), None);
-    while !list.is_empty() {
+    let mut label = None;
+    let args = listed(&list, |list| {
         if list.peek(syn::LitStr) {
             label = Some(list.parse::<syn::LitStr>()?.value());
-        } else {
-            args.push(expression(&list, diag)?);
+            return Ok(None);
         }
-        if !list.is_empty() {
-            let _: Token![,] = list.parse()?;
-        }
-    }
+        expression(list, diag).map(Some)
+    })?;
+    let args = args.into_iter().flatten().collect();
     Ok(Shape { name, args, label })
 }

@@ -327,18 +327,10 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             ),
             _ => refuse(loc, "`!` has no meaning in an equation"),
         },
-        syn::Expr::Index(syn::ExprIndex { expr, index, .. }) if text(&index).is_some() => {
-            quantity(*expr, &text(&index).unwrap_or_default(), diag)
-        }
-        syn::Expr::Index(i) => {
-            let (mut base, mut indices) = (*i.expr, vec![Expr::convert(*i.index, diag)]);
-            while let syn::Expr::Index(inner) = base {
-                indices.push(Expr::convert(*inner.index, diag));
-                base = *inner.expr;
-            }
-            indices.reverse();
-            ExprKind::Index(boxed(base), indices)
-        }
+        syn::Expr::Index(i) => match text(&i.index) {
+            Some(unit) => quantity(*i.expr, &unit, diag),
+            None => indexed(i, diag),
+        },
         syn::Expr::Call(c) => match &*c.func {
             syn::Expr::Path(p) => match name_of(p) {
                 Ok(name) if name == "sum" => sum(c, loc, diag),
@@ -396,6 +388,17 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             "not an equation's expression; allowed are numbers, names, `+ - * /`, functions and vectors `[a, b]`",
         ),
     }
+}
+
+/// `p[i][j]` with all its indices.
+fn indexed(e: syn::ExprIndex, diag: &Diagnostics) -> ExprKind {
+    let (mut base, mut indices) = (*e.expr, vec![Expr::convert(*e.index, diag)]);
+    while let syn::Expr::Index(inner) = base {
+        indices.push(Expr::convert(*inner.index, diag));
+        base = *inner.expr;
+    }
+    indices.reverse();
+    ExprKind::Index(Box::new(Expr::convert(base, diag)), indices)
 }
 
 /// What a unit became before it was read.

@@ -1,6 +1,7 @@
 //! Declarations that others are made of, on their way: a macro sees its own input only, so the declaration of a part is asked for by a macro
 //! of the part's name, which calls this one again with the part's tokens before those of the declaration:
-//! `@parts [{path} {tokens} {parts of the part} …] declaration`. Tokens in which there is an error, which is told, begin with `!`.
+//! `@parts [{path} {tokens} {parts of the part} …] declaration`. Tokens in which there is an error, which is told, begin with `!`; a
+//! declaration that is no part hands on a `?` alone.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -8,6 +9,8 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 #[derive(Clone)]
 pub(crate) struct Known {
     path: String,
+    /// It is a part.
+    pub(crate) is_part: bool,
     /// There is an error in it, which is told.
     pub(crate) faulty: bool,
     pub(crate) declaration: TokenStream,
@@ -38,11 +41,15 @@ impl Table {
         let groups: Vec<TokenStream> = groups.collect();
         let known = groups.chunks_exact(3).map(|three| {
             let mut declaration = three[1].clone().into_iter().peekable();
-            let mark =
-                |tree: &TokenTree| matches!(tree, TokenTree::Punct(mark) if mark.as_char() == '!');
+            let mut marked = |sign: char| {
+                let mark =
+                    |tree: &TokenTree| matches!(tree, TokenTree::Punct(p) if p.as_char() == sign);
+                declaration.next_if(mark).is_some()
+            };
             Known {
                 path: text(&three[0]),
-                faulty: declaration.next_if(mark).is_some(),
+                is_part: !marked('?'),
+                faulty: marked('!'),
                 declaration: declaration.collect(),
                 parts: three[2].clone(),
             }

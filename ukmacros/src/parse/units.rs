@@ -1,7 +1,8 @@
 //! Units, found before anything else is read, since `[kg m^2]` is no expression of Rust.
 //!
 //! Brackets behind a number hold a unit. Behind a name or a vector they do where they can be no index: indices are made of constants, loop
-//! variables and arguments, none of which is called like a unit that is meant. The unit's text takes the place of what is in the brackets.
+//! variables and arguments, none of which is called like a unit that is meant; where a constant is, behind a vector of which it would choose an
+//! entry, that is told. The unit's text takes the place of what is in the brackets.
 
 use super::item::Measure;
 use crate::diag::{Diagnostics, suggest};
@@ -13,7 +14,11 @@ use ukunits::{Refusal, Unit};
 pub(super) fn mark(tokens: &TokenStream, diag: &Diagnostics) -> Option<TokenStream> {
     let mut integers = Vec::new();
     constants(tokens, &mut integers);
-    let mut marking = Marking { integers, diag };
+    let mut marking = Marking {
+        constants: integers.len(),
+        integers,
+        diag,
+    };
     marking.level(tokens)
 }
 
@@ -34,6 +39,8 @@ fn constants(tokens: &TokenStream, found: &mut Vec<String>) {
 #[derive(Clone, Copy, PartialEq)]
 enum Before {
     Number,
+    /// `[a, b]`.
+    Vector,
     Operand,
     Other,
 }
@@ -41,6 +48,8 @@ enum Before {
 struct Marking<'d> {
     /// Names that an index may be made of: of constants, and of the loops and functions around.
     integers: Vec<String>,
+    /// How many of them are constants: the first.
+    constants: usize,
     diag: &'d Diagnostics,
 }
 
@@ -58,7 +67,11 @@ impl Marking<'_> {
             let named = std::mem::take(&mut declares);
             match &token {
                 TokenTree::Group(group) => {
-                    before = Before::Operand;
+                    let bracket = group.delimiter() == Delimiter::Bracket;
+                    before = match bracket && stands == Before::Other {
+                        true => Before::Vector,
+                        false => Before::Operand,
+                    };
                     let braces = group.delimiter() == Delimiter::Brace;
                     let variable = variable.take_if(|_| braces);
                     let inside = self.integers.len();
@@ -108,16 +121,32 @@ impl Marking<'_> {
 
     /// What becomes of the contents of a group.
     fn group(&mut self, group: &Group, before: Before) -> Option<TokenStream> {
+        let inside = group.stream();
         let holds = group.delimiter() == Delimiter::Bracket
             && match before {
                 Before::Number => true,
-                Before::Operand => is_unit(&group.stream(), &self.integers),
+                Before::Vector => is_unit(&inside, &self.integers) || self.hidden(group),
+                Before::Operand => is_unit(&inside, &self.integers),
                 Before::Other => false,
             };
         match holds {
             true => Some(text(group, self.diag)),
-            false => self.level(&group.stream()),
+            false => self.level(&inside),
         }
+    }
+
+    /// Whether these are the brackets of a unit behind a vector, but for a constant that is called like it, which is told.
+    fn hidden(&self, group: &Group) -> bool {
+        let inside = group.stream();
+        let inner = &self.integers[self.constants..];
+        let hidden = is_unit(&inside, inner) && Unit::parse(&inside.to_string()).is_ok();
+        if hidden {
+            let message = format!(
+                "`[{inside}]` behind a vector is read as an index, since a constant is called like the unit; rename the constant"
+            );
+            self.diag.error(group.span(), message);
+        }
+        hidden
     }
 }
 

@@ -247,6 +247,7 @@ cases! {
     start_of_what_is_none: "params { m = 1.0 } coords { x } mass { x: m } start a { «m» = 1.0 }" => "`m` is not a coordinate; coordinates are `x`";
     start_given_twice: "coords { x[2] } mass { x: 1.0 } start a { x = [1.0, 2.0]; «x[1]» near 1.0 }" => "`x[1]` is given twice in this start; remove one";
     start_declared_twice: "coords { x } mass { x: 1.0 } start a { x = 1.0 } start «a» { x = 2.0 }" => "start `a` is declared twice; names must be unique";
+    option_behind_a_number: "coords { x } mass { x: 1.0 } start a(b = 1.0 «2.0») { x = b }" => "expected identifier";
     option_without_a_default: "coords { x } mass { x: 1.0 } start a(«b») { x = b }" => "option `b` needs a default: `b = 1.0`";
     option_like_a_parameter: "params { m = 1.0 } coords { x } mass { x: m } start a(«m» = 1.0) { x = m }" => "`m` is declared twice; names must be unique";
     option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "a constant is known at compile time";

@@ -42,6 +42,36 @@ fn angles_are_what_sines_are_taken_of() {
 }
 
 #[test]
+fn documentation_shows_the_first_constraints_and_the_last() {
+    let long = |i: usize| {
+        let terms = (0..200).map(|k| format!("sin({k}.25 * x[{i}])"));
+        terms.collect::<Vec<_>>().join(" + ")
+    };
+    let rows = (0..12).map(|i| match i {
+        // Long ones among those that are left out: the first of them, and another.
+        6 | 8 => format!("c{i}: {} = y", long(i)),
+        _ => format!("c{i}: sin({}.5 * x[{i}]) = y * x[{i}]", i * i),
+    });
+    let rows: Vec<String> = rows.collect();
+    let source = format!(
+        "pub T {{ coords {{ x[12], y }} mass {{ y: 1, x: 1 }} holonomic {{ {} }} }}",
+        rows.join(", ")
+    );
+    let docs = expand(&source).0.to_string();
+    let count = |text: &str| docs.matches(text).count();
+    assert_eq!(count("… 5 more, which"), 1);
+    assert_eq!(count("… a long one, which"), 0);
+    for i in 0..12 {
+        let shown = !(6..11).contains(&i);
+        assert_eq!(
+            docs.contains(&format!("<mtext>c{i}:</mtext>")),
+            shown,
+            "c{i}"
+        );
+    }
+}
+
+#[test]
 fn the_runtime_is_called_what_the_user_calls_it() {
     let rest = "pub T { coords { x } mass { x: 1.0 } }";
     let emitted = |source: &str| expand(source).0.to_string().replace(' ', "");

@@ -162,6 +162,56 @@ fn parts_are_asked_for() {
     assert!(code.to_string().contains("macro_export"));
 }
 
+/// A declaration that is no part says so to the whole, which tells the remedy, and no more.
+#[test]
+fn what_is_no_part_is_told() {
+    let (code, errors) = expand("pub Leg { bodies { planar a { mass: 1, inertia: 1 } } }");
+    assert!(errors.is_empty());
+    let text = code.to_string();
+    assert!(text.contains("{ ? }") && !text.contains("macro_export"));
+    check_after(
+        "@parts [{ Leg } { ? } { }] ",
+        "parts { for i in 0..2 { leg[i]: «Leg» { l: 1 } } } tree { hip: pin(ground.at([0, 0]), leg[1].a.at([0, 0])) } \
+         force { leg[0].a.x: 1 } output { o = leg[1].a.angle + leg[0].f(1) }",
+        &["`Leg` is no part; write `#[ukcore(part)]` before `Leg` where it is declared"],
+    );
+}
+
+/// Functions of parts are called as what else belongs to them, and in parts of parts, whatever is called so outside.
+#[test]
+fn functions_of_parts() {
+    let outputs = |source: &str| -> Vec<f64> {
+        let (system, model) = system(source);
+        let q: Vec<f64> = (0..model.coord_elements.len())
+            .map(|i| (1.7 * i as f64).sin())
+            .collect();
+        let ids: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
+        let point = Point {
+            q: &q,
+            params: &system.defaults,
+            ..Point::NOWHERE
+        };
+        eval(&system.graph, &ids, &point)
+    };
+    let source = format!(
+        "{LEG} pub T {{ gravity {{ [0, -1] }} parts {{ leg[2]: Leg }} let turn = |i, a| a * i; let of = |a| leg[1].turn(0, a); output {{ \
+         called = leg[1].turn(1, 0.3) - 0.3 * leg[1].shin[1].along([1, 0]), summed = sum(0..2, |i| leg[i].turn(i, 2.0)) - \
+         2.0 * leg[0].shin[0].along([1, 0]) - 2.0 * leg[1].shin[1].along([1, 0]), within = of(0.5) - 0.5 * leg[1].shin[0].along([1, 0]), own = turn(2, 3.0) - 6.0 }} }}"
+    );
+    let values = outputs(&source);
+    let differences = &values[..7];
+    assert!(differences.iter().all(|x| x.abs() < 1e-15), "{values:?}");
+    let nested = "@parts [{ Leg } { pub Leg { coords { x } mass { x: 1 } parts { foot[2]: Foot } let f = |u| -u; output { a = foot[1].f(x) + f(x) } } } \
+        { { Foot } { pub Foot { params { r = 0.5 } coords { y } mass { y: 1 } let f = |u| r * u + y; } } { } }] \
+        pub T { parts { leg: Leg } let f = 7.0; output { b = leg.foot[1].f(leg.x) - leg.x - leg.foot[1].y + f } }";
+    let [b, a] = outputs(nested)[..] else {
+        panic!("two outputs")
+    };
+    let x = |i: i32| (1.7 * f64::from(i)).sin();
+    assert!((a - (x(2) - 0.5 * x(0))).abs() < 1e-15, "{a}");
+    assert!((b - (7.0 - 0.5 * x(0))).abs() < 1e-15, "{b}");
+}
+
 /// What is wrong in a part is told where that is declared, and only there.
 #[test]
 fn errors_of_a_part_are_told_once() {
@@ -202,6 +252,11 @@ cases! {
     parts_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg» }" => "`leg` is a part; choose what belongs to it";
     no_such_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[2].tip }" => "there is no part `leg[2]`; there are `leg[0]`, `leg[1]`";
     nothing_in_the_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tap» }" => "part `leg[1]` has no `tap`; did you mean `tip`?";
+    no_such_function: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tarn»(0, 1.0) }" => "part `leg[1]` has no `tarn`; did you mean `turn`?";
+    value_called: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tip»(0) }" => "`leg[1].tip` is not a function";
+    function_of_no_member: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[2].turn(0, 1.0) }" => "there is no part `leg[2]`";
+    arguments_of_a_function: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«turn»(1.0) }" => "takes 2 arguments, found 1";
+    function_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«turn» }" => "`leg[1].turn` is a function; call it";
     vocabulary_declared: "gravity { [0, -1] } let pin = |p, q| p - q; parts { leg: «Leg» } output { o = pin(leg.tip, [0, 0]) }" => "this declares `pin`, which `Leg` uses";
     name_of_a_part_taken: "gravity { [0, -1] } parts { «leg»: Leg } coords { leg_tip } mass { leg_tip: 1 }" => "`leg.tip` is declared twice";
     wrong_in_the_whole: "gravity { [0, -1] } params { m = 0.0 } parts { «leg»[2]: Leg { l: m, m: -1 } }" => "in part `leg`: the mass of a body must not be negative";

@@ -55,6 +55,20 @@ fn numbers_are_in_si() {
 }
 
 #[test]
+fn constants_called_like_units_are_indices() {
+    // Sizes, members beside others, entries of vectors by loops, by functions and by what is no unit; units of numbers.
+    for body in [
+        "const N: usize = 2; coords { x[N] } mass { x: 1 } force { x[0]: 3 [N] * sign(x[1]) }",
+        "const N: usize = 2; coords { x[N + 1] } mass { x: 1 } output { for i in 0..N { y[i] = x[i] } y[N] = x[N] }",
+        "const N: usize = 2; coords { x[N] } mass { x: 1 } force { for J in 0..2 { x[J]: [1.0, 2.0][J] } }",
+        "const N: usize = 2; coords { x[N] } mass { x: 1 } force { x[0]: [1.0, 2.0][N - 1] }",
+        "const N: usize = 2; coords { x[N + 1] } mass { x: 1 } force { x[0]: sum(0..2, |J| [1.0, 2.0][J] * x[J]) }",
+    ] {
+        accepted(body);
+    }
+}
+
+#[test]
 fn units_are_handed_on() {
     let found = units_of(
         "params { l = 300 [mm], a = 30 [deg], k = 2 [kN/mm], c = 1.0, n = 2 [-], i = 2 [kg] * sq(0.3 [m]), t1 = 3 * k * l * l, b[2] = [1, 2] [N m/rad] } \
@@ -214,6 +228,10 @@ cases! {
     unit_of_a_name: "params { l = 1, r = 2 * «l» [m] } coords { x } mass { x: r }" => "a unit stands behind numbers, such as `0.3 [m]`";
     unit_of_an_expression: "params { l = 1, r = «(2 * l) [m]» } coords { x } mass { x: r }" => "what depends on parameters has the unit that follows from theirs";
     unit_at_the_wrong_name: "params { l «[m]» = 1 } coords { x } mass { x: l }" => "a unit stands behind numbers, as in `l = 0.3 [m]`";
+    constant_like_a_unit_behind_a_vector: "const N: usize = 1; params { f[2] = [0.5, 2.0] «[N]» } coords { x } mass { x: f[0] } force { x: f[1] }" => "`[N]` behind a vector is read as an index, since a constant is called like the unit; rename the constant";
+    constant_like_a_unit_of_an_output: "const N: usize = 2; coords { x[N] } mass { x: 1 } output { pull[«N»] = x[0] }" => "`pull[N]` is one member of a family: `N` is the constant here, and no unit; rename the constant";
+    constant_like_a_unit_of_an_integral: "const J: usize = 2; coords { x } mass { x: 1 } integral { work[«J»] = x }" => "`work[J]` is one member of a family";
+    constant_like_a_unit_behind_a_quotient: "const N: usize = 2; params { f = (1 / 3.0) [«N»] } coords { x } mass { x: f }" => "`N` is the constant here, and no unit; rename the constant";
     name_of_a_constant: "const s: f64 = 2.0; coords { x[«s»] } mass { x: 1 }" => "`s` is not an integer constant or loop variable; a unit is written so where no constant";
 }
 

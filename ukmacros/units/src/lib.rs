@@ -193,7 +193,7 @@ impl Unit {
         product(&powers)
     }
 
-    /// The names of its factors, with their prefixes.
+    /// The names of its factors, without their prefixes.
     pub fn factors(&self) -> impl Iterator<Item = &'static str> {
         self.factors.iter().map(|factor| factor.base.name)
     }
@@ -203,9 +203,8 @@ impl Unit {
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors = self.factors.iter();
-        let names: Vec<(String, i32)> = factors.map(|f| (f.name(), f.power)).collect();
-        let powers = names.iter().map(|(name, power)| (name.as_str(), *power));
-        f.write_str(&product(&powers.collect::<Vec<_>>()))
+        let powers: Vec<(String, i32)> = factors.map(|f| (f.name(), f.power)).collect();
+        f.write_str(&product(&powers))
     }
 }
 
@@ -215,7 +214,7 @@ impl Factor {
     }
 
     fn text(&self) -> String {
-        product(&[(&self.name(), self.power)])
+        product(&[(self.name(), self.power)])
     }
 }
 
@@ -234,24 +233,22 @@ fn shifted(x: f64, decimals: i32) -> f64 {
 }
 
 /// Powers as a product: `kg m^2/s^2`, `1/s`.
-fn product(powers: &[(&str, i32)]) -> String {
+fn product<N: fmt::Display>(powers: &[(N, i32)]) -> String {
     let mut out = String::new();
-    let mut write = |name: &str, power: i32| {
-        out.push_str(name);
+    let mut write = |before: &str, name: &N, power: i32| {
+        let _ = write!(out, "{before}{name}");
         if power != TWELFTHS {
             let _ = write!(out, "^{}", f64::from(power) / f64::from(TWELFTHS));
         }
     };
     let mut first = true;
     for (name, power) in powers.iter().filter(|(_, power)| *power > 0) {
-        write(if first { "" } else { " " }, TWELFTHS);
+        write(if first { "" } else { " " }, name, *power);
         first = false;
-        write(name, *power);
     }
     for (name, power) in powers.iter().filter(|(_, power)| *power < 0) {
-        write(if first { "1/" } else { "/" }, TWELFTHS);
+        write(if first { "1/" } else { "/" }, name, -power);
         first = false;
-        write(name, -power);
     }
     out
 }

@@ -21,18 +21,19 @@ use ukcore::model::{Entry, Reference};
 use crate::command::{self, find};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::motion;
 use crate::numbers;
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 use crate::scene::Start;
-use crate::units::{self, Quantity};
+use crate::units::Quantity;
 
 use export::Report;
 use study::Study;
 
 pub(crate) use truth::{distance, grow, scale, stacked};
 
-/// The arguments of `report`.
+/// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// Models to measure (see `list`); all of them if none is named
@@ -45,7 +46,7 @@ pub struct ReportArgs {
     #[arg(long)]
     pub quick: bool,
     /// Time to stop at, of one model; its own duration if absent
-    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// The parameters and the start of one model
     #[command(flatten)]
@@ -88,9 +89,7 @@ pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
         };
         match job.study(args.quick, interrupt, &done) {
             Ok(study) => report.studies.push(study),
-            Err(failure) => report
-                .failures
-                .push((job.name.clone(), failure.to_string())),
+            Err(failure) => report.failures.push((job.name.clone(), failure.message())),
         }
     }
     progress.finish();
@@ -264,7 +263,8 @@ fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
                     let (time, knob) = (numbers::duration(choice.cost.seconds), choice.cost.knob);
                     format!("{time:>9}  {} at {knob:.0e}", choice.variant.label)
                 });
-                writeln!(w, "  {name:<wide$}  {goal:.0e}  {words}")?;
+                let goal = format!("{goal:.0e}");
+                writeln!(w, "  {name:<wide$}  {goal:<5}  {words}")?;
             }
         }
         writeln!(

@@ -8,7 +8,7 @@ use ukcore::{Error, Simulation, Trajectory};
 use crate::interrupt::Interrupt;
 use crate::numbers;
 
-/// What was computed for one value.
+/// The work of all runs that were made for one value of a sweep.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Effort {
     /// Steps, accepted or not.
@@ -40,7 +40,7 @@ impl Effort {
 /// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
 pub type Measure<'a> = &'a (dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync);
 
-/// A case.
+/// A case: one thing that is swept, what results are compared with, and what counts as right.
 #[derive(Clone)]
 pub struct Case<'a> {
     /// Name on the command line.
@@ -91,7 +91,7 @@ pub fn decades(first: i32, last: i32, step: usize, ordinary: i32) -> Sweep {
 }
 
 impl Sweep {
-    /// The values given, the first one ordinary.
+    /// A sweep over the values given, of which the first is the ordinary one.
     #[must_use]
     pub fn of(values: &[f64]) -> Self {
         Sweep {
@@ -111,7 +111,7 @@ impl Sweep {
         }
     }
 
-    /// This sweep with `value` at its end.
+    /// Adds `value` at the end of the sweep.
     #[must_use]
     pub fn and(mut self, value: f64) -> Self {
         self.values.push(value);
@@ -134,7 +134,7 @@ fn short(value: f64) -> String {
     format!("{value:e}")
 }
 
-/// How a value came out.
+/// How the result at a value of a sweep compares with its oracle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Class {
@@ -149,7 +149,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// All of them, from good to bad.
+    /// All classes, from good to bad.
     pub const ALL: [Class; 4] = [
         Class::Accurate,
         Class::Degraded,
@@ -157,7 +157,7 @@ impl Class {
         Class::Wrong,
     ];
 
-    /// One word.
+    /// The word for the class in tables and on pages.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -169,7 +169,7 @@ impl Class {
     }
 }
 
-/// One value of a case.
+/// What came out at one value of a case.
 #[derive(Debug, Clone, Serialize)]
 pub struct Point {
     /// The value.
@@ -189,7 +189,7 @@ pub struct Point {
     pub seconds: f64,
 }
 
-/// A case with all its values.
+/// What came out of a case, at all its values.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row<'a> {
     /// [`Case::id`].
@@ -278,7 +278,7 @@ impl Row<'_> {
         format!("{} … {}", label(first), label(last))
     }
 
-    /// The names of the refusals, each once.
+    /// The names of the errors with which values were refused, each once.
     pub fn refusals(&self) -> Vec<&'static str> {
         let mut names: Vec<&'static str> = Vec::new();
         for (name, _) in self.points.iter().filter_map(|p| p.refusal.as_ref()) {
@@ -289,12 +289,12 @@ impl Row<'_> {
         names
     }
 
-    /// Values of a class.
+    /// The number of values that came out as `class`.
     pub fn count(&self, class: Class) -> usize {
         self.points.iter().filter(|p| p.class == class).count()
     }
 
-    /// Work and time of all values.
+    /// The work of all values together, and their time in seconds.
     pub fn total(&self) -> (Effort, f64) {
         let mut sum = Effort::default();
         for p in &self.points {

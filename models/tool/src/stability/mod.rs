@@ -44,6 +44,8 @@ pub struct StabilityArgs {
 #[derive(Debug, Serialize)]
 struct Stability<'a> {
     about: &'static str,
+    /// The motion that all cases change, where it is one.
+    subject: &'a str,
     /// All that was asked for is there.
     complete: bool,
     cases: Vec<Row<'a>>,
@@ -81,16 +83,17 @@ pub fn main(cases: &[Case<'_>]) -> ExitCode {
 /// [`Failure::Usage`] for a case that is not there; [`Failure::Failed`] if a result is wrong, or a file cannot be written;
 /// [`Failure::Interrupted`] after Ctrl-C, with the cases that were finished written.
 pub fn stability(cases: &[Case<'_>], args: &StabilityArgs) -> Result<(), Failure> {
-    sweep(&chosen(cases, &args.cases)?, &args.out)
+    sweep(&chosen(cases, &args.cases)?, "", &args.out)
 }
 
-/// Runs these cases and writes the report to the directory `out`.
-fn sweep(chosen: &[&Case<'_>], out: &Path) -> Result<(), Failure> {
+/// Runs these cases, all of `subject` if that is not empty, and writes the report to the directory `out`.
+fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure> {
     let started = Instant::now();
     let directory = Directory::create(out)?;
     let rows = compute(chosen, Interrupt::catch()?);
     let report = Stability {
         about: ABOUT,
+        subject,
         complete: rows.len() == chosen.len(),
         cases: rows,
         seconds: started.elapsed().as_secs_f64(),

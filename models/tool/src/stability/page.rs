@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::Stability;
 use super::case::{Class, Point, Row};
-use crate::html::{Cell, Page, Section, figure_of, fixed, power_of_ten, table};
+use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, table};
 
 /// index.html.
 pub(super) fn html(report: &Stability<'_>) -> String {
@@ -38,7 +38,10 @@ fn head(report: &Stability<'_>) -> Markup {
     let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
     let [accurate, degraded, refused, wrong] = Class::ALL.map(count);
     html! {
-        p.lead { "Each case sweeps one thing until it breaks." }
+        p.lead {
+            @if !report.subject.is_empty() { (message(report.subject)) ". " }
+            "Each case sweeps one thing until it breaks."
+        }
         @if !report.complete {
             p.note { b { "This page is incomplete" } ": the run was interrupted. It has the cases that were finished by then." }
         }
@@ -117,8 +120,8 @@ fn value(p: &Point) -> Vec<Cell> {
         Cell::number(p.effort.steps),
         Cell::number(p.effort.evaluations),
         Cell::number(p.effort.fallbacks),
-        Cell::Text(html! {
-            @if let Some((name, message)) = &p.refusal { small { (name) ": " (message) } }
+        Cell::or_missing(p.refusal.as_ref(), |(name, text)| {
+            Cell::Class("said", html! { (name) ": " (message(text)) })
         }),
     ]
 }

@@ -1,5 +1,6 @@
 //! The example as its user meets it: a program of a declaration and one line.
 
+mod codes;
 mod pictures;
 mod sweeps;
 
@@ -62,12 +63,13 @@ fn a_mechanism_is_listed_with_its_starts() {
         )
     );
     for part in [
-        "start released (default): let go with the cart at rest\n",
-        "angle = 0.872665 rad    Angle of the rod from the vertical\n",
+        "start released (default), for 10 s: let go with the cart at rest\n",
+        "angle = 50 deg          Angle of the rod from the vertical\n",
         "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
     ] {
         assert!(list.contains(part), "{part} in {list}");
     }
+    assert!(list.lines().all(|line| line == line.trim_end()), "{list}");
     fails(
         "run crat",
         2,
@@ -154,6 +156,28 @@ fn a_declared_start_takes_its_options() {
         "`dot(x)`: a value in m/s is needed, not one in m",
     );
     fails("run cart --set angel=3", 2, "did you mean `angle`?");
+    fails(
+        "run cart --set l=2 --set l=3",
+        2,
+        "`l` is given twice by `--set`",
+    );
+    fails("run cart --guess x=1 --guess x=2", 2, "twice by `--guess`");
+    // What is refused is called as it was written.
+    fails(
+        "run cart --set m=1e-310",
+        2,
+        "error: `m` is 1e-310: below 2.2e-308 numbers lose digits",
+    );
+    fails(
+        "run cart --method rattle=0.5 --set k=4000",
+        1,
+        "the step of `--method rattle=STEP` is 0.5, which is too long here",
+    );
+    fails(
+        "run cart --until 1e300",
+        1,
+        "`--until` is 1e300, so far that",
+    );
 }
 
 #[test]
@@ -168,7 +192,10 @@ fn it_is_explained_with_a_guess_and_without() {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert!(output("explain cart").contains("rod: "));
+    let said = text.matches("A cart on a spring with a pendulum hanging from it");
+    assert_eq!(said.count(), 1, "{text}");
     assert!(output("explain cart --code acceleration").starts_with("fn acceleration<S: "));
+    fails("explain cart --code --set l=2", 2, "cannot be used with");
 }
 
 #[test]
@@ -188,6 +215,13 @@ fn it_is_measured() {
     ] {
         assert!(Path::new(&place).join(file).is_file(), "{file}");
     }
+    // A motion that cannot be measured is told once to be an error.
+    let told = cart(&format!(
+        "report cart --set m=-1 --quick --out {}",
+        place.display()
+    ));
+    let told = String::from_utf8_lossy(&told.stderr).into_owned();
+    assert_eq!(told.matches("error").count(), 1, "{told}");
     fails(
         &format!(
             "report cart --guess x=9 --hold s,x,y --out {}",
@@ -248,7 +282,10 @@ fn it_is_swept_until_it_breaks() {
     }
     assert_eq!(class("m", "1e-12"), accurate);
     assert_eq!(class("tolerance", "1e-9"), accurate);
-    assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
+    assert!(place.join("stability.svg").exists());
+    let page = std::fs::read_to_string(place.join("index.html")).expect("a page");
+    let of = "<code>cart</code> from <code>released</code>, 0.05 s";
+    assert!(page.contains(of), "{page}");
     fails("stability carts", 2, "did you mean `cart`?");
 }
 

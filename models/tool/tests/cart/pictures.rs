@@ -95,6 +95,14 @@ fn runs_are_shown_side_by_side() {
         assert_eq!(pictures.count(), 4, "{shown}");
         assert!(shown.contains("t = 4.000 s"), "{shown}");
     }
+    // Which of them fails is said, and what was computed of it is shown.
+    let told = format!(
+        "animate cart --set m=1,-1 --until 1 --out {}",
+        page.display()
+    );
+    fails(&told, 1, "error: m = -1: at t = 0: the mass matrix");
+    let told = "animate cart --set l=1,2 --guess x=9 --hold s,x,y --out a.html";
+    fails(told, 1, "error: l = 1: no state near the guess");
     fails(
         "animate cart --set k=1,2,3,4 --tol 1e-4,1e-6",
         2,
@@ -143,10 +151,23 @@ fn curves_of_a_run_are_drawn() {
         "no quantity is called `swnig`; did you mean `swing`?",
     );
     fails(
-        "run cart --plot a.svg s x,y",
+        "run cart --plot a.svg s,t,x",
         2,
-        "do not go into one picture",
+        "no quantity is called `t,x`",
     );
+    fails("run cart --plot a.svg s,", 2, "no quantity is called ``");
+    // A panel for what is over time in degrees, in metres, and for the path.
+    output(&format!(
+        "run cart --until 1 --plot {} swing s x,y x",
+        path.display()
+    ));
+    let text = std::fs::read_to_string(&path).expect("a picture");
+    assert!(text.contains("viewBox=\"0 0 760 926\""), "{text}");
+    for label in ["swing (deg)", "s (m), x (m)", "x (m)", "y (m)"] {
+        assert!(text.contains(&format!("\n{label}\n")), "{label} in {text}");
+    }
+    let over_time = text.matches("\nt (s)\n");
+    assert_eq!(over_time.count(), 2, "{text}");
     fails("run cart --plot a.svg", 2, "--plot <FILE> <CURVE>");
 }
 

@@ -18,7 +18,7 @@ fn values_are_swept() {
     let out = tempfile::tempdir().expect("directory");
     let place = out.path().join("sweep.csv");
     let sweep = |more: &str| format!("sweep cart --until 1 --out {} {more}", place.display());
-    let command = sweep("--set k=40..60:10 --set angle=30deg,1");
+    let command = sweep("--set k=40..60:10 --set angle=30deg,1rad");
     assert!(output(&command).starts_with("6 runs in "));
     let table = std::fs::read_to_string(&place).expect("a table");
     let found = rows(&table);
@@ -60,7 +60,7 @@ fn values_are_swept() {
     output(&command);
     fails(&sweep("--set k=40..70:10"), 2, "holds something else than");
     fails(
-        &sweep("--set k=40..60:10 --set angle=30deg,1 --tol 1e-8"),
+        &sweep("--set k=40..60:10 --set angle=30deg,1rad --tol 1e-8"),
         2,
         "holds something else",
     );
@@ -71,11 +71,25 @@ fn values_are_swept() {
 fn members_fail_alone() {
     let out = tempfile::tempdir().expect("directory");
     let place = out.path().join("sweep.csv");
-    let told = output(&format!(
-        "sweep cart --until 1 --set m=1,-1 --out {}",
-        place.display()
-    ));
-    assert!(told.contains("of which 1 failed"), "{told}");
+    let command = |values: &str| {
+        format!(
+            "sweep cart --until 1 --set m={values} --out {}",
+            place.display()
+        )
+    };
+    // The table is whole, and so is another call that has nothing left to compute.
+    for _ in 0..2 {
+        fails(
+            &command("1,-1"),
+            3,
+            "error: 1 of 2 runs failed (column `error` of ",
+        );
+        fails(
+            &command("1,-1"),
+            3,
+            "): number 1: at t = 0: the mass matrix",
+        );
+    }
     let table = std::fs::read_to_string(&place).expect("a table");
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let last = |record: csv::StringRecord| record.iter().next_back().map(str::to_owned);
@@ -106,6 +120,68 @@ fn members_fail_alone() {
         2,
         "`angle`",
     );
+    fails(
+        "sweep cart --set angle=10,20deg --out a.csv",
+        2,
+        "in `angle=10,20deg` some numbers have a unit and some have none; write it behind each",
+    );
+    let several = out.path().join("several.csv");
+    fails(
+        &format!(
+            "sweep cart --until 0.1 --set m=-12..1:1 --out {}",
+            several.display()
+        ),
+        3,
+        ": numbers 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, …; the first: at t = 0: ",
+    );
+}
+
+#[test]
+fn no_two_columns_have_one_name() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let command = format!(
+        "sweep cart --until 0.1 --method dop853,rattle=0.01 --of t,residual,swing --out {}",
+        place.display()
+    );
+    output(&command);
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let mut names: Vec<&str> = table.lines().next().expect("names").split(',').collect();
+    let number = names.len();
+    for name in ["t", "end(t)", "residual", "end(residual)", "swing"] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), number, "{names:?}");
+    // What did not begin has no residual.
+    let place = out.path().join("none.csv");
+    let command = command.replace("sweep.csv", "none.csv");
+    fails(
+        &format!("{command} --set m=1,1e-310"),
+        3,
+        "2 of 4 runs failed",
+    );
+    let table = std::fs::read_to_string(&place).expect("a table");
+    for row in rows(&table) {
+        assert_eq!(row["residual"].is_empty(), row["m"] == "1e-310", "{row:?}");
+    }
+}
+
+#[test]
+fn a_step_without_a_unit_is_in_that_of_the_ends() {
+    let out = tempfile::tempdir().expect("directory");
+    let table = |values: &str| {
+        let place = out.path().join("sweep.csv");
+        let place = place.display();
+        output(&format!(
+            "sweep cart --until 0.1 --set angle={values} --out {place}"
+        ));
+        let table = std::fs::read_to_string(place.to_string()).expect("a table");
+        std::fs::remove_file(place.to_string()).expect("a table");
+        table
+    };
+    assert_eq!(table("10deg..30deg:10"), table("10deg..30deg:10deg"));
 }
 
 /// What is done when the user ends it is kept, and the same command goes on from there.

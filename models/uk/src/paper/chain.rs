@@ -106,7 +106,6 @@ pub(super) fn film() -> Result<String, Failure> {
                 ..Place::default()
             },
             settings: vec![("x0".to_owned(), (*x0).into())],
-            ..Start::default()
         };
         (label.as_str(), start, motion::played(UNTIL))
     });

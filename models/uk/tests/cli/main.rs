@@ -154,6 +154,7 @@ fn json_holds_final_state_residuals_and_work() {
     assert!(q.contains_key("x[0]") && q.contains_key("y[16]"));
     assert!(run["position_residual"].as_f64().expect("number") < 1e-12);
     assert!(run["energy_drift"].as_f64().expect("number") < 1e-9);
+    assert!(run["energy_exchanged"].as_f64().expect("number") > 1.0);
     assert!(run["work"]["steps"].as_u64().expect("number") > 0);
     assert_eq!(run["parameters"]["g"], 9.8);
 }
@@ -267,9 +268,30 @@ fn a_start_is_assembled_from_a_guess() {
 }
 
 #[test]
+fn a_remark_is_no_failure() {
+    let page = include_str!("../../../../docs/commands.md");
+    assert!(page.contains(
+        "| 0 | done, with a remark in the summary | `run` | `uk run double_scott_russell` |"
+    ));
+    let told = output(&["run", "double_scott_russell"]);
+    let remark = "Dropped from the straight line, as the other constraints imply them: ";
+    assert!(told.contains(remark), "{told}");
+}
+
+#[test]
+fn modes_say_what_they_leave_out() {
+    // On level ground the block rests, by a friction that no linear motion has.
+    let told = output(&["modes", "rough_block", "--set", "slope=0"]);
+    let note = "is 0, where the non-ideal force on `x`";
+    assert!(told.contains("\nnote: `") && told.contains(note), "{told}");
+    let told = output(&["modes", "pendulum"]);
+    assert!(!told.contains("note: "), "{told}");
+}
+
+#[test]
 fn summaries_count_in_words() {
     let none = output(&["run", "pendulum", "--until", "0"]);
-    assert!(none.contains("over 1 sample\n"), "{none}");
+    assert!(none.contains("Largest of 1 sample\n"), "{none}");
 }
 
 #[test]

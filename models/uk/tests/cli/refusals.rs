@@ -2,104 +2,79 @@
 
 use super::*;
 
+/// Each line is refused as wrong, with this in the message.
+#[track_caller]
+fn refused(lines: &[(&str, &str)]) {
+    for (line, message) in lines {
+        fails(&line.split(' ').collect::<Vec<_>>(), USAGE, message);
+    }
+}
+
 #[test]
 fn wrong_names_get_the_nearest_right_one() {
-    fails(
-        &["run", "uchian"],
-        USAGE,
-        "no model is called `uchian`; did you mean `uchain`?",
-    );
-    fails(&["explain", "fsh"], USAGE, "did you mean `fish`?");
-    fails(
-        &["run", "fish", "--set", "rhoo=1"],
-        USAGE,
-        "did you mean `rho`?",
-    );
-    fails(
-        &["run", "uchain", "--start", "trapezoit"],
-        USAGE,
-        "no start is called `trapezoit`; did you mean `trapezoid`?",
-    );
-    fails(
-        &["run", "fish", "--set", "phi=15degr"],
-        USAGE,
-        "no unit is called `degr`; did you mean `deg`?",
-    );
-    fails(
-        &["run", "fish", "--set", "phi=15mm"],
-        USAGE,
-        "`phi`: a value in rad is needed, not one in m",
-    );
-    fails(&["rum", "fish"], USAGE, "run");
+    refused(&[
+        (
+            "run uchian",
+            "no model is called `uchian`; did you mean `uchain`?",
+        ),
+        ("explain fsh", "did you mean `fish`?"),
+        ("run fish --set rhoo=1", "did you mean `rho`?"),
+        (
+            "run uchain --start trapezoit",
+            "no start is called `trapezoit`; did you mean `trapezoid`?",
+        ),
+        (
+            "run fish --set phi=15degr",
+            "no unit is called `degr`; did you mean `deg`?",
+        ),
+        (
+            "run fish --set phi=15mm",
+            "`phi`: a value in rad is needed, not one in m",
+        ),
+        ("rum fish", "run"),
+    ]);
 }
 
 #[test]
 fn names_that_are_near_to_none_are_listed() {
-    fails(
-        &["run", "nope"],
-        USAGE,
-        "no model is called `nope`; `uk list` shows",
-    );
-    fails(
-        &["run", "kapitza", "--start", "foo"],
-        USAGE,
-        "no start is called `foo`; there is `inverted`, `hanging`\n",
-    );
-    fails(
-        &["run", "pendulum", "--set", "zz=1"],
-        USAGE,
-        "there is `from`, `rate`, `m`, `l`, `g`\n",
-    );
+    refused(&[
+        ("run nope", "no model is called `nope`; `uk list` shows"),
+        (
+            "run kapitza --start foo",
+            "no start is called `foo`; there are `inverted`, `hanging`\n",
+        ),
+        (
+            "run pendulum --set zz=1",
+            "there are `from`, `rate`, `m`, `l`, `g`\n",
+        ),
+    ]);
 }
 
 #[test]
 fn wrong_values_are_refused() {
-    fails(&["run", "fish", "--set", "phi"], USAGE, "NAME=VALUE");
-    fails(&["run", "fish", "--set", "phi="], USAGE, "no value");
-    fails(
-        &["run", "fish", "--set", "phi=nan"],
-        USAGE,
-        "`nan` is not a finite number",
-    );
+    refused(&[
+        ("run fish --set phi", "NAME=VALUE"),
+        ("run fish --set phi=", "no value"),
+        ("run fish --set phi=nan", "`nan` is not a finite number"),
+        ("run fish --set phi=1.5.2", "1.5.2"),
+        ("run fish --every 0", "positive"),
+        ("run fish --every -1", "positive"),
+        ("run fish --every 1e-12", "`--every` is 1e-12"),
+        ("run fish --until inf", "not a finite"),
+        ("run fish --until 2kg", "a value in s is needed"),
+        ("run fish --csv ", "a path is needed"),
+        ("paper --out ", "a path is needed"),
+        ("run fish --stabilise baumgarte=1", "two rates"),
+        ("run fish --stabilise glue", "projection"),
+        ("run uchain --set x0=99", "x0"),
+        ("run fish --json --csv -", "standard output"),
+    ]);
+    fails(&["run", "fish", "--set", "phi=1 000"], USAGE, "1 000");
     for tolerance in ["-1", "nan", "0", "1", "1e-17", "fine"] {
-        fails(
-            &["run", "fish", "--tol", tolerance],
-            USAGE,
-            "'--tol <TOL>': a number from 2.2e-15 to below 1",
-        );
+        let line = format!("run fish --tol {tolerance}");
+        let told = "'--tol <TOL>': a number from 2.2e-15 to below 1";
+        refused(&[(&line, told)]);
     }
-    for interval in ["0", "-1"] {
-        fails(&["run", "fish", "--every", interval], USAGE, "positive");
-    }
-    fails(
-        &["run", "fish", "--every", "1e-12"],
-        USAGE,
-        "`--every` is 1e-12",
-    );
-    fails(&["run", "fish", "--until", "inf"], USAGE, "not a finite");
-    for value in ["1.5.2", "1 000"] {
-        let setting = format!("phi={value}");
-        fails(&["run", "fish", "--set", &setting], USAGE, value);
-    }
-    fails(&["run", "fish", "--csv", ""], USAGE, "a path is needed");
-    fails(&["paper", "--out", ""], USAGE, "a path is needed");
-    fails(
-        &["run", "fish", "--stabilise", "baumgarte=1"],
-        USAGE,
-        "two rates",
-    );
-    fails(
-        &["run", "fish", "--until", "2kg"],
-        USAGE,
-        "a value in s is needed",
-    );
-    fails(&["run", "uchain", "--set", "x0=99"], USAGE, "x0");
-    fails(
-        &["run", "fish", "--json", "--csv", "-"],
-        USAGE,
-        "standard output",
-    );
-    fails(&["run", "fish", "--stabilise", "glue"], USAGE, "projection");
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn a_sweep_gives_table_1() {
         "no quantity is called `fal`; did you mean `fall`?",
     );
     fails(
-        &["sweep", "uchain", "--set", "x0=12kg,13", "--out", &path],
+        &["sweep", "uchain", "--set", "x0=12kg,13kg", "--out", &path],
         USAGE,
         "`x0`: a value in m is needed",
     );

@@ -75,14 +75,14 @@ impl Running {
 
     /// Whether A loses a row on the step in hand, from and to the states that `state` gives, so that the member is to go on alone.
     pub(super) fn loses_a_row(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
-        let Trial { start, end, .. } = self.trial;
-        if !self.rows.is_due(start.t, end.t) {
+        let mechanism = self.recorder.trajectory.mechanism();
+        if mechanism.spec().m() == 0 {
             return false;
         }
+        let Trial { start, end, .. } = self.trial;
         let states = states();
         let [old, new] =
             [(start.t, &states[0]), (end.t, &states[1])].map(|(t, y)| Sample::of(t, y));
-        let mechanism = self.recorder.trajectory.mechanism();
         let found = self.rows.vanishing(mechanism, old, new);
         found.is_some_and(|found| obstacles::vanishing(mechanism, found, old).is_some())
     }

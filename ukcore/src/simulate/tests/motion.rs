@@ -54,6 +54,21 @@ fn error_falls_with_the_order_of_the_method_under_projection() {
     }
 }
 
+/// What all but rests exchanges energy at the level of rounding, of which rounding is no drift.
+#[test]
+fn rounding_of_energies_is_no_drift_of_a_motion_that_is_as_small() {
+    for k in 2..12 {
+        let angle = 10_f64.powi(-k);
+        let run = swing(angle, 1e-12).until(2.0).unwrap();
+        // Of a motion whose energy is well above rounding the drift is that of the motion.
+        let bound = if k < 5 { 1e-7 } else { 1e-13 };
+        let drift = run.energy_drift();
+        assert!(drift < bound, "{angle:e}: {drift:e}");
+    }
+    let loose = swing(1.0, 1e-4).until(20.0).unwrap();
+    assert!(loose.energy_drift() > 1e-7, "{:e}", loose.energy_drift());
+}
+
 #[test]
 fn energy_and_constraints_hold_at_all_samples() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {

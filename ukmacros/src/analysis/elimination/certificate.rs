@@ -44,7 +44,7 @@ use std::collections::{BTreeSet, HashSet};
 
 /// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
 /// module.
-pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
+pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 
 /// The same without constraints: see the module.
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
@@ -250,8 +250,8 @@ impl Elimination {
     /// `safe` where q̈ meets constraint `row`, else 0.
     fn meets(&self, row: usize, d: &Dynamics, safe: Id, g: &mut Graph) -> Id {
         let mut terms = vec![d.rhs[row]];
-        for ((_, i), a) in d.jacobian.range((row, 0)..(row + 1, 0)) {
-            let term = g.mul(*a, self.acceleration[*i]);
+        for (i, a) in d.row(row) {
+            let term = g.mul(a, self.acceleration[i]);
             terms.push(g.hold_whole(term));
         }
         let left: Vec<(f64, Id)> = terms.iter().map(|id| (1.0, *id)).collect();

@@ -1,8 +1,10 @@
 //! K with symbolic entries, eliminated in a given order.
 
 use super::dropping::reciprocal;
+use super::entry::Entry;
+use super::pair::Double;
 use super::rotation::{Turned, apart};
-use super::{Divisor, Pair, Pivoting};
+use super::{Divisor, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,7 +32,7 @@ pub(super) struct Matrix {
     /// Whether what stands for different coordinates shares little inertia, whatever the state.
     pub(super) apart: bool,
     /// Whether what a pair leaves is computed once, with all its factors: many entries are made up of it.
-    whole: bool,
+    pub(super) whole: bool,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -40,127 +42,6 @@ struct Deferred {
     pivot: Id,
     /// p² D.
     square: Id,
-}
-
-/// Σ gram + Σ schur: what makes up an entry of M or G, and what elimination takes off it.
-#[derive(Clone, Default)]
-pub(super) struct Entry {
-    gram: Vec<(f64, Id)>,
-    schur: Vec<(f64, Id)>,
-    /// What the entry could be, where terms of its gram are themselves what is left of larger ones: of a diagonal the sum of these, of a
-    /// coefficient of a constraint the sum of their squares.
-    size: Option<Vec<(f64, Id)>>,
-}
-
-impl Entry {
-    pub(super) fn of(id: Id) -> Self {
-        Entry {
-            gram: vec![(1.0, id)],
-            ..Entry::default()
-        }
-    }
-
-    /// A coefficient whose square the diagonal of its constraint has counted in.
-    pub(super) fn counted(id: Id) -> Self {
-        Entry {
-            size: Some(Vec::new()),
-            ..Entry::of(id)
-        }
-    }
-
-    /// Takes terms off a diagonal that could be `size`.
-    pub(super) fn take_off_sized(&mut self, terms: &[Id], size: Id) {
-        if self.size.is_some() || terms != [size] {
-            let gram = &self.gram;
-            let sizes = self.size.get_or_insert_with(|| gram.clone());
-            sizes.push((-1.0, size));
-        }
-        self.gram.extend(terms.iter().map(|term| (-1.0, *term)));
-    }
-
-    /// The value as an open sum, to be part of others.
-    pub(super) fn open(&self, g: &mut Graph) -> Id {
-        g.factored_sum(&[&self.gram[..], &self.schur].concat())
-    }
-
-    /// The value, with terms collected that have a factor in common: two rods at one joint have a difference of its coordinates.
-    pub(super) fn collected(&self, g: &mut Graph) -> Id {
-        let terms = [&self.gram[..], &self.schur].concat();
-        let mut by_factor: BTreeMap<Id, Vec<(f64, Id)>> = BTreeMap::new();
-        let mut rest = Vec::new();
-        for (c, term) in terms {
-            let (k, inner) = g.unscaled(term);
-            match g.factors(inner)[..] {
-                [(one, 1), (other, 1)] => {
-                    let known = by_factor.contains_key(&other);
-                    let (by, of) = if known { (other, one) } else { (one, other) };
-                    by_factor.entry(by).or_default().push((c * k, of));
-                }
-                _ => rest.push((c, term)),
-            }
-        }
-        for (by, of) in by_factor {
-            let sum = g.sum(&of);
-            rest.push((1.0, g.mul(by, sum)));
-        }
-        g.factored_sum(&rest)
-    }
-
-    /// What a diagonal could be: what it started from.
-    pub(super) fn reference(&self, g: &mut Graph) -> Id {
-        match &self.size {
-            Some(size) => g.factored_sum(size),
-            None => self.values(g).0,
-        }
-    }
-
-    /// What the square of a coefficient could be.
-    pub(super) fn square(&self, g: &mut Graph) -> Id {
-        match &self.size {
-            Some(size) => g.factored_sum(size),
-            None => {
-                let value = self.open(g);
-                g.square(value)
-            }
-        }
-    }
-
-    /// Takes `term` off a coefficient, where the square of that could be `square`.
-    fn substitute(&mut self, term: Id, square: Id, g: &mut Graph) {
-        let before = self.square(g);
-        self.gram.push((-1.0, term));
-        let size = vec![(1.0, before), (1.0, square)];
-        let value = self.open(g);
-        let (value, sum) = (g.square(value), g.factored_sum(&size));
-        let ((c, value), (least, sum)) = (g.unscaled(value), g.unscaled(sum));
-        // What is added up without cancelling is as large as it could be.
-        let plain = value == sum && c >= least;
-        self.size = (!plain).then_some(size);
-    }
-
-    /// Takes `term` off: off what stood before if it `reduces`, else as a part of what the entry is made up of.
-    pub(super) fn take_off(&mut self, term: Id, reduces: bool) {
-        let list = match reduces {
-            true => &mut self.schur,
-            false => &mut self.gram,
-        };
-        list.push((-1.0, term));
-    }
-
-    /// The value before and after the terms of constraints.
-    pub(super) fn values(&self, g: &mut Graph) -> (Id, Id) {
-        let gram = g.factored_sum(&self.gram);
-        let gram = match g.unscaled(gram).0.abs() {
-            1.0 => gram,
-            _ => g.hold_whole(gram),
-        };
-        if self.schur.is_empty() {
-            return (gram, gram);
-        }
-        let mut terms = vec![(1.0, gram)];
-        terms.extend(&self.schur);
-        (gram, g.factored_sum(&terms))
-    }
 }
 
 /// One step of an elimination, as right-hand sides see it.
@@ -192,49 +73,6 @@ pub(super) struct Single {
     pub(super) factors: Vec<(usize, Id)>,
     /// Whether the division is put off to the one neighbour there is.
     pub(super) defers: bool,
-}
-
-/// What the pivot [μ a; a 0] of a coordinate with a constraint leaves.
-pub(super) struct Double {
-    pub(super) pair: Pair,
-    /// μ.
-    pub(super) inertia: Id,
-    /// a.
-    pub(super) coefficient: Id,
-    pub(super) touched: Vec<Touched>,
-}
-
-/// A neighbour of the coordinate j or of the constraint c of a 2 × 2 pivot.
-pub(super) struct Touched {
-    pub(super) at: usize,
-    /// K_rj.
-    pub(super) with: Id,
-    /// K_rc/a: by how much of it q̈_j is less.
-    pub(super) factor: Id,
-    /// K_rj − μ K_rc/a.
-    left: Id,
-}
-
-impl Double {
-    /// The constraint's part of the solution, from the row of the coordinate with the right-hand side `given`, where all that is eliminated
-    /// later is known, and the coordinate.
-    pub(super) fn multiplier(&self, given: Id, known: &[Option<Id>], g: &mut Graph) -> Option<Id> {
-        let own = known[self.pair.coordinate]?;
-        let mut terms = vec![(1.0, given), (-1.0, g.mul(self.inertia, own))];
-        for touched in &self.touched {
-            if !g.is_zero(touched.with) {
-                terms.push((-1.0, g.mul(touched.with, known[touched.at]?)));
-            }
-        }
-        let rest = g.factored_sum(&terms);
-        Some(g.div(rest, self.coefficient))
-    }
-
-    /// q̈_j follows from the constraint's row alone: its other entries, divided by a.
-    pub(super) fn factors(&self, g: &Graph) -> Vec<(usize, Id)> {
-        let factors = self.touched.iter().map(|t| (t.at, t.factor));
-        factors.filter(|(_, id)| !g.is_zero(*id)).collect()
-    }
 }
 
 /// Why there is no pivot at `k`.
@@ -297,7 +135,7 @@ impl Matrix {
         }
     }
 
-    fn take_off(&mut self, a: usize, b: usize, term: Id, reduces: bool, g: &Graph) {
+    pub(super) fn take_off(&mut self, a: usize, b: usize, term: Id, reduces: bool, g: &Graph) {
         if g.is_zero(term) {
             return;
         }
@@ -329,7 +167,7 @@ impl Matrix {
     }
 
     /// Those entries of `k` with `others` that are not zero, as `value` gives them.
-    fn row(
+    pub(super) fn row(
         &self,
         others: &BTreeSet<usize>,
         k: usize,
@@ -530,116 +368,6 @@ impl Matrix {
                 };
                 self.entry_mut(*a, *a).take_off_sized(&[term], size);
             }
-        }
-    }
-
-    /// Eliminates a coordinate with a constraint, whose pivot P = [μ a; a 0] has P⁻¹ = [0 1/a; 1/a −μ/a²].
-    fn eliminate_pair(
-        &mut self,
-        pair: Pair,
-        names: &[String],
-        g: &mut Graph,
-    ) -> Result<Double, String> {
-        let (j, c) = (pair.coordinate, pair.constraint);
-        let (a, mu) = (self.entry(j, c).open(g), self.entry(j, j).open(g));
-        if g.is_zero(a) || !g.uses(a).constant() {
-            let (name, of) = (&names[j], &names[c]);
-            return Err(format!("the coefficient of `{name}` in `{of}` vanishes"));
-        }
-        let largest = match self.entries.get(&(j, j)) {
-            Some(entry) => entry.reference(g),
-            None => mu,
-        };
-        if pair.massive {
-            self.weigh(pair, mu, g);
-        }
-        let mut of_j = self.take(j);
-        of_j.remove(&c);
-        let of_c = self.take(c);
-        let row_j = self.row(&of_j, j, Entry::open, g);
-        let row_c = self.row(&of_c, c, Entry::open, g);
-        let zero = g.zero();
-        let entry = |row: &[(usize, Id)], r: usize| {
-            row.binary_search_by_key(&r, |(at, _)| *at)
-                .map_or(zero, |at| row[at].1)
-        };
-        let both: BTreeSet<usize> = row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
-        let touched = both.into_iter().map(|at| {
-            let (with, factor) = (entry(&row_j, at), g.div(entry(&row_c, at), a));
-            let whole = |id: Id, g: &mut Graph| match self.whole {
-                true => g.hold_all(id),
-                false => id,
-            };
-            let (with, factor) = (whole(with, g), whole(factor, g));
-            let moved = g.mul(mu, factor);
-            let left = g.factored_sum(&[(1.0, with), (-1.0, moved)]);
-            let left = whole(left, g);
-            Touched {
-                at,
-                with,
-                factor,
-                left,
-            }
-        });
-        let touched: Vec<Touched> = touched.collect();
-        for (p, r) in touched.iter().enumerate() {
-            for s in &touched[..=p] {
-                self.substitute(pair, r, s, largest, g);
-            }
-        }
-        Ok(Double {
-            pair,
-            inertia: mu,
-            coefficient: a,
-            touched,
-        })
-    }
-
-    /// Constraints remember that the coordinate of `pair`, of inertia `mu`, was theirs: where what gives it cannot move it, as a crank at its
-    /// dead centre, all that is left of a constraint vanishes, and would else be compared with itself.
-    fn weigh(&mut self, pair: Pair, mu: Id, g: &mut Graph) {
-        let constraints = self.rows[pair.coordinate].range(self.n..).copied();
-        let others: Vec<usize> = constraints.filter(|r| *r != pair.constraint).collect();
-        for r in others {
-            let square = self.entry(r, pair.coordinate).square(g);
-            let size = g.div(square, mu);
-            self.entry_mut(r, r).take_off_sized(&[], size);
-        }
-    }
-
-    /// What the substitution of a coordinate leaves of the entry of `r` and `s`, of which r is not before s.
-    fn substitute(&mut self, pair: Pair, r: &Touched, s: &Touched, largest: Id, g: &mut Graph) {
-        // Either form is the same; the second has one term if s shares no inertia with the coordinate.
-        let (one, other) = match g.is_zero(r.with) {
-            true => (s, r),
-            false => (r, s),
-        };
-        let terms = [g.mul(other.factor, one.left), g.mul(one.factor, other.with)];
-        let terms: Vec<Id> = terms.into_iter().filter(|id| !g.is_zero(*id)).collect();
-        if terms.is_empty() {
-            return;
-        }
-        let (j, c) = (pair.coordinate, pair.constraint);
-        let (a, b) = (r.at, s.at);
-        let coefficient = self.entry(j, c).open(g);
-        if a == b {
-            // Without the inertia shared with the coordinate: it may cancel the rest, and is not larger.
-            let square = self.entry(c, a).square(g);
-            let size = g.product(&[(square, 1), (largest, 1), (coefficient, -2)]);
-            let size = g.neg(size);
-            self.entry_mut(a, a).take_off_sized(&terms, size);
-        } else if b < self.n && a >= self.n {
-            let (f, o) = (self.entry(a, j).square(g), self.entry(c, b).square(g));
-            let square = g.product(&[(f, 1), (o, 1), (coefficient, -2)]);
-            self.link(a, b);
-            let entry = self.entry_mut(a, b);
-            terms
-                .iter()
-                .for_each(|term| entry.substitute(*term, square, g));
-        } else {
-            terms
-                .iter()
-                .for_each(|term| self.take_off(a, b, *term, false, g));
         }
     }
 }

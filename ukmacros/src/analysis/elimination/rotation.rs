@@ -24,7 +24,8 @@
 //! not be checked where M is of numbers, and each row of |M_ij|/√(M_ii M_jj) beside its diagonal adds up to δ ≤ [`APART`]: what stands for
 //! different coordinates has no coordinate in common, so that |m₁₂| ≤ δ/(1 − δ) √(m₁ m₂).
 
-use super::matrix::{Entry, Matrix};
+use super::entry::Entry;
+use super::matrix::Matrix;
 use super::{Divisor, SAFE_SHARE};
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
@@ -74,10 +75,10 @@ impl Turned {
     /// b n.
     pub(super) fn along(&self, b: Id, g: &mut Graph) -> [Id; 2] {
         let share = g.mul(self.inverse, b);
-        let share = held(share, g);
+        let share = g.hold_inner(share);
         self.normal.map(|n| {
             let along = g.mul(n, share);
-            held(along, g)
+            g.hold_inner(along)
         })
     }
 
@@ -89,19 +90,6 @@ impl Turned {
             g.add(along[i], across)
         })
     }
-}
-
-/// `id` as one value, with its coefficient outside.
-fn held(id: Id, g: &mut Graph) -> Id {
-    let (c, inner) = g.unscaled(id);
-    let inner = g.hold_whole(inner);
-    g.scale(c, inner)
-}
-
-/// x₁ y₁ + x₂ y₂.
-pub(super) fn dot(x: [Id; 2], y: [Id; 2], g: &mut Graph) -> Id {
-    let terms = [0, 1].map(|i| (1.0, g.mul(x[i], y[i])));
-    g.factored_sum(&terms)
 }
 
 /// The inertia of two coordinates.
@@ -138,7 +126,7 @@ impl Matrix {
         let (of, c) = (rotation.coordinates, rotation.constraint);
         let a = of.map(|i| {
             let entry = self.entry(i, c).open(g);
-            held(entry, g)
+            g.hold_inner(entry)
         });
         let block = Block {
             own: of.map(|i| self.entry(i, i).open(g)),
@@ -147,11 +135,11 @@ impl Matrix {
                 g.hold_whole(shared)
             },
         };
-        let (length, adjugate) = (dot(a, a, g), block.adjugate(a, g));
+        let (length, adjugate) = (g.inner(&a, &a), block.adjugate(a, g));
         // Not a sum of products with m, where m is a factor of all of it.
         let pivot = match block.is_round(g) {
             true => g.mul(block.own[0], length),
-            false => dot(a, adjugate, g),
+            false => g.inner(&a, &adjugate),
         };
         if g.is_zero(pivot) {
             return Err(format!(
@@ -173,7 +161,7 @@ impl Matrix {
         let minus = g.neg(a[0]);
         let tangent = [a[1], minus].map(|t| {
             let t = g.mul(t, scale);
-            held(t, g)
+            g.hold_inner(t)
         });
         // Between coordinates as declared, of one inertia, n is t turned back.
         let (normal, inverse) = match scaled && block.is_round(g) {
@@ -184,7 +172,7 @@ impl Matrix {
             hints.push((g.unscaled(t).1, format!("{}_by_{}", names[i], names[c])));
         }
         let inertia = g.product(&[(pivot, 1), (scale, 2)]);
-        let inertia = held(inertia, g);
+        let inertia = g.hold_inner(inertia);
         let touched = self.turn(rotation, tangent, inertia, g);
         let turned = Turned {
             rotation,
@@ -249,15 +237,8 @@ impl Matrix {
     /// and once for all.
     fn count_in(&mut self, rotation: Rotation, block: &Block, g: &mut Graph) {
         for (i, inertia) in rotation.coordinates.into_iter().zip(block.own) {
-            if self.turned[i].is_some() {
-                continue;
-            }
-            let others = self.rows[i].range(self.n..).copied();
-            let others: Vec<usize> = others.filter(|r| *r != rotation.constraint).collect();
-            for r in others {
-                let square = self.entry(r, i).square(g);
-                let size = g.div(square, inertia);
-                self.entry_mut(r, r).take_off_sized(&[], size);
+            if self.turned[i].is_none() {
+                self.weigh(i, rotation.constraint, inertia, g);
             }
         }
     }
@@ -278,10 +259,10 @@ impl Matrix {
         for r in near.into_iter().filter(|r| !of.contains(r)) {
             let with = of.map(|i| self.entry(r, i).open(g));
             touched.push((r, with));
-            let left = dot(with, tangent, g);
+            let left = g.inner(&with, &tangent);
             let left = match r < self.n && self.turned[r].is_some() {
                 true => g.hold_whole(left),
-                false => held(left, g),
+                false => g.hold_inner(left),
             };
             if g.is_zero(left) {
                 self.remove(r, place);

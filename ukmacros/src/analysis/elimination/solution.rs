@@ -1,7 +1,9 @@
 //! Solutions of an eliminated system.
 
-use super::matrix::{Double, Entry, Factor, Single};
-use super::rotation::{Rotation, Turned, dot};
+use super::entry::Entry;
+use super::matrix::{Factor, Single};
+use super::pair::Double;
+use super::rotation::{Rotation, Turned};
 use crate::expr::{Graph, Id};
 
 /// A solution of K x = r.
@@ -130,7 +132,7 @@ impl Forward {
                 self.take_off(*r, term, false, g);
             }
         }
-        self.entries[of[0]] = Entry::of(dot(turned.tangent, force, g));
+        self.entries[of[0]] = Entry::of(g.inner(&turned.tangent, &force));
         right
     }
 

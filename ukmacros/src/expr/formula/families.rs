@@ -105,14 +105,9 @@ impl Member {
         if self.shape != next.shape {
             return None;
         }
-        let mut pairs = self.indices.iter().zip(&next.indices);
-        let same = pairs.clone().all(|(a, b)| a.letters == b.letters);
-        same.then(|| {
-            pairs
-                .by_ref()
-                .map(|(a, b)| b.constant - a.constant)
-                .collect()
-        })
+        let pairs = self.indices.iter().zip(&next.indices);
+        let steps = pairs.map(|(a, b)| (a.letters == b.letters).then(|| b.constant - a.constant));
+        steps.collect()
     }
 }
 

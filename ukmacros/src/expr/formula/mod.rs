@@ -62,19 +62,19 @@ enum Precedence {
 
 impl Formula {
     pub(crate) fn number(x: f64) -> Self {
-        let magnitude = Formula::Number(x.abs());
-        match x < 0.0 {
-            true => magnitude.negative(),
-            false => magnitude,
-        }
+        Formula::Number(x.abs()).signed(x)
     }
 
     pub(crate) fn name(text: &str) -> Self {
         Formula::Name(Name::from(text))
     }
 
-    pub(crate) fn negative(self) -> Self {
-        Formula::Negative(Box::new(self))
+    /// With the sign of `c`.
+    pub(crate) fn signed(self, c: f64) -> Self {
+        match c < 0.0 {
+            true => Formula::Negative(Box::new(self)),
+            false => self,
+        }
     }
 
     pub(crate) fn equal(self, other: Formula) -> Self {
@@ -168,12 +168,7 @@ impl fmt::Display for Formula {
             }
             Formula::Sum(terms) => {
                 for (k, (minus, term)) in terms.iter().enumerate() {
-                    f.write_str(match (k, minus) {
-                        (0, false) => "",
-                        (0, true) => "-",
-                        (_, false) => " + ",
-                        (_, true) => " - ",
-                    })?;
+                    f.write_str(sign(k == 0, *minus))?;
                     term.wrapped(Precedence::Product, f)?;
                 }
                 Ok(())
@@ -239,6 +234,16 @@ impl Formula {
     }
 }
 
+/// What stands before a term.
+fn sign(first: bool, minus: bool) -> &'static str {
+    match (first, minus) {
+        (true, false) => "",
+        (true, true) => "-",
+        (false, false) => " + ",
+        (false, true) => " - ",
+    }
+}
+
 fn factors(factors: &[Formula], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (k, factor) in factors.iter().enumerate() {
         f.write_str(if k == 0 { "" } else { "*" })?;
@@ -294,12 +299,7 @@ impl fmt::Display for Index {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut first = true;
         for (letter, factor) in &self.letters {
-            f.write_str(match (first, *factor < 0) {
-                (true, false) => "",
-                (true, true) => "-",
-                (false, false) => " + ",
-                (false, true) => " - ",
-            })?;
+            f.write_str(sign(first, *factor < 0))?;
             first = false;
             match factor.abs() {
                 1 => f.write_str(letter)?,

@@ -269,7 +269,7 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let [position] = positions else {
-            let members = super::names::range_of(name, &bodies.shape);
+            let members = super::keys::range_of(name, &bodies.shape);
             let message = format!("`{name}` is a family of bodies; choose a member, {members}");
             return self.error(name.span(), message);
         };

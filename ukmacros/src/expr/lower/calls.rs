@@ -4,20 +4,30 @@ use super::array::Value;
 use super::parts::PARTS;
 use super::vectors::OPERATIONS;
 use super::{Binding, Env, Lowering, Place};
-use crate::diag::suggest;
+use crate::diag::{Diagnostics, suggest};
 use crate::expr::diff::Derivative;
 use crate::expr::functions::Func;
 use crate::expr::graph::Id;
-use crate::model::{Scope, arity};
+use crate::model::{Reported, Scope, arity};
 use crate::parse::Expr;
 use proc_macro2::Ident;
 
 /// Largest exponent of `powi`.
 const MAX_POWER: i32 = 64;
 
+/// The functions of the language that expressions use.
+fn vocabulary() -> impl Iterator<Item = &'static str> {
+    let table = Func::all().map(|f| f.row().name);
+    let table = table.chain(["powi", "recip", "dot", "sum", "reaction", "moment"]);
+    table.chain(OPERATIONS.iter().map(|o| o.name))
+}
+
 impl<'m> Lowering<'m> {
     pub(super) fn call(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
+        if let Some(value) = self.of_part(e, name, args, env) {
+            return value;
+        }
         if self.is_function(&text) {
             // Bodies keep what is theirs, whatever functions are called.
             let own = ["at", "along"].contains(&text.as_str());
@@ -89,6 +99,40 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// `leg[0].turn(a)`: the value of a function that the part `leg[0]` declares, if that is what is called.
+    fn of_part(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Option<Value> {
+        let (part, args) = args.split_first()?;
+        let mut segments = part.segments().filter(|_| !self.written)?;
+        if env.args.iter().any(|(n, _)| segments[0].0 == n) {
+            return None;
+        }
+        segments.push((name.clone(), Vec::new()));
+        let quiet = Diagnostics::default();
+        match env.scope.in_part(&segments, &quiet)? {
+            Ok(found) if found.used < segments.len() => None,
+            Ok(found) if self.is_function(&found.name.to_string()) => {
+                Some(self.apply(e, &found.name, args, env))
+            }
+            Ok(found) => Some(self.unknown_function(&found.name, env)),
+            Err(Reported) if self.functions().contains(&name.to_string().as_str()) => None,
+            // Told again, aloud.
+            Err(Reported) => env
+                .scope
+                .in_part(&segments, self.diag)
+                .map(|_| Value::Error),
+        }
+    }
+
+    /// The names of all functions.
+    fn functions(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = vocabulary().chain(["at", "along"]).collect();
+        names.extend(PARTS.iter().map(|part| part.name));
+        let lets = self.lets.iter();
+        let own = lets.filter(|(_, binding)| matches!(binding, Binding::Function(_)));
+        names.extend(own.map(|(name, _)| name.as_str()));
+        names
+    }
+
     /// Whether `let` declares a function of this name, where it is the modeller who calls.
     pub(super) fn is_function(&self, name: &str) -> bool {
         !self.written && matches!(self.lets.get(name), Some(Binding::Function(_)))
@@ -119,16 +163,9 @@ impl<'m> Lowering<'m> {
                 format!("`{text}` is not a function; write `*` for a product, `,` between entries");
             return self.error_once(name, message);
         }
-        let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
-        names.extend(["powi", "recip", "dot", "sum", "reaction", "moment"]);
-        names.extend(OPERATIONS.iter().map(|o| o.name));
-        let list = names.join(", ");
-        names.extend(PARTS.iter().map(|part| part.name));
-        let lets = self.lets.iter();
-        let functions = lets.filter(|(_, b)| matches!(b, Binding::Function(_)));
-        names.extend(functions.map(|(n, _)| n.as_str()));
+        let list = vocabulary().collect::<Vec<_>>().join(", ");
         let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
-        let end = suggest(&text, names, &remedy);
+        let end = suggest(&text, self.functions(), &remedy);
         self.error_once(name, format!("unknown function `{text}`{end}"))
     }
 

@@ -7,7 +7,7 @@ use super::{Env, Lowering};
 use crate::diag::Loc;
 use crate::expr::graph::{Id, Symbol};
 use crate::parse::{Expr, ExprKind};
-use Measured::{Known, Number, Unknown};
+use Measured::{Number, Unknown};
 use ukunits::{Dimension, Unit};
 
 impl<'m> Lowering<'m> {
@@ -104,25 +104,16 @@ impl<'m> Lowering<'m> {
         for k in 0..count {
             let measured = defaults.get(k).map_or(Unknown, |id| self.dimension(*id));
             if let Some(dimensions) = &mut self.dimensions {
-                dimensions.params.push(match measured {
-                    Known { declared: true, .. } => measured,
-                    _ => Unknown,
-                });
+                dimensions.params.push(measured.declared());
             }
         }
     }
 
     /// What stands for an option whose default is `default`, where units are looked at.
     pub(super) fn measured_option(&mut self, default: Id) -> Option<Symbol> {
-        let measured = match self.dimension(default) {
-            measured @ Known { declared: true, .. } => measured,
-            _ => Unknown,
-        };
+        let measured = self.dimension(default);
         let dimensions = self.dimensions.as_mut()?;
-        dimensions.symbols.push(measured);
-        Some(Symbol::Param(
-            dimensions.first + dimensions.symbols.len() - 1,
-        ))
+        Some(dimensions.option(measured))
     }
 
     /// Reports `id`, which stands at `loc`, where it is not of the dimension `expected` of `what`.
@@ -164,9 +155,6 @@ impl<'m> Lowering<'m> {
         let mut sums: Vec<Measured> = Vec::new();
         for (sign, value, loc) in terms {
             for (k, id) in value.entries().iter().enumerate() {
-                if self.graph.is_zero(*id) {
-                    continue;
-                }
                 let next = self.dimension(*id);
                 if sums.len() <= k {
                     sums.resize(k + 1, Number);
@@ -203,13 +191,8 @@ impl<'m> Lowering<'m> {
                     .iter()
                     .filter_map(|(_, value, _)| value.entries().get(k));
                 let ids: Vec<Id> = ids.copied().collect();
-                ids.into_iter().try_fold(Number, |side, id| {
-                    let next = match self.graph.is_zero(id) {
-                        true => Number,
-                        false => self.dimension(id),
-                    };
-                    side.with(next)
-                })
+                let mut dimensions = ids.into_iter().map(|id| self.dimension(id));
+                dimensions.try_fold(Number, Measured::with)
             });
             // What is wrong within a side is told as such.
             let [Ok(a), Ok(b)] = sides else {
@@ -284,8 +267,7 @@ impl<'m> Lowering<'m> {
 
     /// What an entry of M is measured in.
     pub(super) fn expect_mass(&mut self, (i, j): (usize, usize), id: Id, loc: Loc) {
-        let time = Measured::of(Dimension::TIME);
-        let rates = [i, j].map(|k| self.of_coordinate(k).per(time));
+        let rates = [i, j].map(|k| self.of_coordinate(k).rate());
         let mass = Measured::of(Dimension::ENERGY).per(rates[0]).per(rates[1]);
         self.expect(id, mass, "a mass for these coordinates", loc);
     }

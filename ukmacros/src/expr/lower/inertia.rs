@@ -351,11 +351,8 @@ fn possible(numbers: &[f64]) -> Result<(), String> {
         ([a, b, c], pairs, det)
     };
     let (own, pairs, det) = minors([xx, yy, zz], [yx, zx, zy]);
-    let own_moments = own;
-    let own = own.iter().chain(&pairs).chain([&det]);
-    if own.into_iter().any(|x| *x <= 0.0) {
-        let thin = own_moments.contains(&0.0);
-        let remedy = match thin {
+    if own.iter().chain(&pairs).chain([&det]).any(|x| *x <= 0.0) {
+        let remedy = match own.contains(&0.0) {
             true => "; about its own axis a thin rod has a small moment, m r²/2, too",
             false => "",
         };

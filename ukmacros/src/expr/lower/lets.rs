@@ -15,17 +15,23 @@ impl<'m> Lowering<'m> {
     pub(super) fn constants(&mut self, top: &Scope<'m>) -> Vec<f64> {
         let mut values = Vec::new();
         for constant in &self.model.floats {
-            let before = self.diag.len();
-            let id = self.scalar(&constant.value, &Env::new(top, Place::Const));
-            let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
-            if self.diag.len() == before {
-                let what = format!("constant `{}`", constant.name);
-                self.finite_number(&what, value, constant.value.loc);
-            }
+            let what = format!("constant `{}`", constant.name);
+            let (id, value) = self.fixed(&constant.value, &what, top);
             self.floats.push(id);
             values.push(value);
         }
         values
+    }
+
+    /// The number that `e` is, known at compile time; reports `what` it is of if it is not finite.
+    pub(super) fn fixed(&mut self, e: &Expr, what: &str, top: &Scope<'m>) -> (Id, f64) {
+        let before = self.diag.len();
+        let id = self.scalar(e, &Env::new(top, Place::Const));
+        let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
+        if self.diag.len() == before {
+            self.finite_number(what, value, e.loc);
+        }
+        (id, value)
     }
 
     /// Reports `what` if its `value` is not finite. Where dimensions are looked at, symbols stand for values.

@@ -6,6 +6,7 @@ mod calls;
 mod drawing;
 mod expect;
 mod inertia;
+mod keys;
 mod lets;
 mod names;
 mod outputs;

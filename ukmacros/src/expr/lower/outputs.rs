@@ -6,6 +6,8 @@ use super::{Env, Lowering, Names, NoValue, Place};
 use crate::expr::graph::Id;
 use crate::model::Scope;
 use crate::parse::{Block, Measure, Output};
+use proc_macro2::Ident;
+use std::collections::BTreeMap;
 
 impl<'m> Lowering<'m> {
     /// The `value` of an output in the unit that it is declared with.
@@ -38,6 +40,8 @@ impl<'m> Lowering<'m> {
         names: &mut Names,
     ) -> Vec<OutputValue> {
         let mut out: Vec<OutputValue> = Vec::new();
+        // How often each name is declared, and where an index of it is called like a unit.
+        let mut declared: BTreeMap<Ident, (usize, Option<Ident>)> = BTreeMap::new();
         let (what, place) = match result {
             NoValue::Integral => ("integral", Place::Integral),
             _ => ("output", Place::Output),
@@ -47,6 +51,11 @@ impl<'m> Lowering<'m> {
             let Some(mut item) = self.item(key, scope) else {
                 return;
             };
+            let (members, hidden) = declared.entry(key.name.clone()).or_default();
+            *members += 1;
+            if let [index] = &key.indices[..] {
+                *hidden = self.hidden_unit(index, scope).cloned();
+            }
             let looped = !scope.variables.is_empty();
             let free = self.model.column(&key.name);
             if let Err(reason) = free.and_then(|()| names.enter(what, &item, looped)) {
@@ -76,6 +85,14 @@ impl<'m> Lowering<'m> {
                 });
             }
         });
+        for (name, of) in declared {
+            if let (1, Some(unit)) = of {
+                let message = format!(
+                    "`{name}[{unit}]` is one member of a family: `{unit}` is the constant here, and no unit; rename the constant"
+                );
+                self.diag.error(unit.span(), message);
+            }
+        }
         out
     }
 }

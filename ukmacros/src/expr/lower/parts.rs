@@ -285,10 +285,8 @@ impl<'m> Lowering<'m> {
                     self.error(e.loc, format!("a `{name}` depends on coordinates and time only; write what depends on velocities as a `force` or `torque`"));
                     return;
                 }
-                for id in value.entries() {
-                    let energy = Measured::of(Dimension::ENERGY);
-                    self.expect(*id, energy, &format!("the energy of `{name}`"), e.loc);
-                }
+                let what = format!("the energy of `{name}`");
+                self.expect_all(&value, Dimension::ENERGY, &what, e.loc);
                 out.potential
                     .extend(value.entries().iter().map(|id| (1.0, *id)));
             }

@@ -5,7 +5,6 @@ use super::system::{GuessKind, GuessValue, OptionValue, StartValue};
 use super::units::Measured;
 use super::{Env, Lowering, Place};
 use crate::diag::Loc;
-use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Symbol;
 use crate::model::{Name, Scope};
 use crate::parse::{Declaration, Expr, Guess, Key, Start};
@@ -73,13 +72,8 @@ impl<'m> Lowering<'m> {
             if let Err(reason) = taken {
                 self.diag.error(option.name.span(), reason);
             }
-            let before = self.diag.len();
-            let id = self.scalar(&option.default, &Env::new(top, Place::Const));
-            let default = eval(&self.graph, &[id], &Point::NOWHERE)[0];
-            if self.diag.len() == before {
-                let what = format!("default of `{name}`");
-                self.finite_number(&what, default, option.default.loc);
-            }
+            let what = format!("default of `{name}`");
+            let (id, default) = self.fixed(&option.default, &what, top);
             let symbol = self.measured_option(id);
             let symbol = symbol.unwrap_or(Symbol::Param(parameters + options.len()));
             args.push((name.clone(), Value::Scalar(self.graph.symbol(symbol))));
@@ -96,12 +90,10 @@ impl<'m> Lowering<'m> {
     /// How long a motion lasts.
     fn lasting(&mut self, until: &Expr, top: &Scope<'m>) -> Option<f64> {
         let before = self.diag.len();
-        let id = self.scalar(until, &Env::new(top, Place::Const));
-        let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
+        let (id, value) = self.fixed(until, "the duration", top);
         if self.diag.len() > before {
             return None;
         }
-        self.finite_number("the duration", value, until.loc);
         if value <= 0.0 {
             let message = format!("a motion lasts a time above 0, not {value}");
             self.diag.error(until.loc, message);
@@ -117,9 +109,9 @@ impl<'m> Lowering<'m> {
 
     fn guess(&mut self, guess: &Guess, env: &Env<'m>, out: &mut Vec<GuessValue>) {
         if let ([key], false) = (&guess.keys[..], guess.vector)
-            && let Some((key, vector)) = self.vector_of(key, guess.rate, &env.scope)
+            && let Some((key, vector, spatial)) = self.vector_of(key, guess.rate, &env.scope)
         {
-            return self.vector_guess(guess, &key, vector, env, out);
+            return self.vector_guess(guess, &key, (vector, spatial), env, out);
         }
         let found: Vec<_> = guess
             .keys
@@ -147,10 +139,7 @@ impl<'m> Lowering<'m> {
             for (coordinate, value) in positions.iter().zip(values) {
                 let place = self.of_coordinate(*coordinate);
                 let (expected, what) = match guess.rate {
-                    true => (
-                        place.per(Measured::of(Dimension::TIME)),
-                        "as this velocity is",
-                    ),
+                    true => (place.rate(), "as this velocity is"),
                     false => (place, "as this coordinate is"),
                 };
                 self.expect(*value, expected, what, guess.value.loc);
@@ -190,8 +179,13 @@ impl<'m> Lowering<'m> {
         false
     }
 
-    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, and which it is.
-    fn vector_of(&mut self, key: &Key, rate: bool, scope: &Scope<'m>) -> Option<(Key, OfBody)> {
+    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, which it is, and whether the body is spatial.
+    fn vector_of(
+        &mut self,
+        key: &Key,
+        rate: bool,
+        scope: &Scope<'m>,
+    ) -> Option<(Key, OfBody, bool)> {
         let (last, _) = key.fields.last()?;
         let vector = match last.to_string().as_str() {
             "centre" => OfBody::Centre,
@@ -199,7 +193,7 @@ impl<'m> Lowering<'m> {
             "spin" if !rate => OfBody::Spin,
             _ => return None,
         };
-        let mut key = self.within(key, scope)?;
+        let mut key = self.within(key, scope)?.into_owned();
         let body = self.model.names.get(&key.name.to_string());
         let Some(Name::Body(family)) = body else {
             return None;
@@ -212,7 +206,7 @@ impl<'m> Lowering<'m> {
             return None;
         }
         *field = Ident::new("x", field.span());
-        Some((key, vector))
+        Some((key, vector, spatial))
     }
 
     /// The place of a body's centre of mass, or its velocity; or its angular velocity: the rate of the angle of a planar one, those of the
@@ -221,17 +215,15 @@ impl<'m> Lowering<'m> {
         &mut self,
         guess: &Guess,
         key: &Key,
-        vector: OfBody,
+        (vector, spatial): (OfBody, bool),
         env: &Env<'m>,
         out: &mut Vec<GuessValue>,
     ) {
-        let (value, model) = (self.value(&guess.value, env), self.model);
+        let value = self.value(&guess.value, env);
         let Some((places, shape)) = self.coordinates(key, &env.scope) else {
             return;
         };
-        let body = model.own.iter().position(|own| *own == Some(places[0]));
-        let kind = body.map(|k| model.body_kinds[model.body_elements[k].family]);
-        let size = match (kind.is_some_and(|kind| kind.spatial), vector) {
+        let size = match (spatial, vector) {
             (true, _) => 3,
             (false, OfBody::Centre) => 2,
             (false, _) => 1,
@@ -252,14 +244,13 @@ impl<'m> Lowering<'m> {
                 OfBody::Spin => (3, GuessKind::Spin),
             };
             let turns = matches!(kind, GuessKind::Omega | GuessKind::Spin);
-            let rate = |of: Measured| of.per(Measured::of(Dimension::TIME));
             let (expected, what) = match vector {
                 OfBody::Centre if guess.rate => {
-                    (rate(self.of_coordinate(*first)), "as this velocity is")
+                    (self.of_coordinate(*first).rate(), "as this velocity is")
                 }
                 OfBody::Centre => (self.of_coordinate(*first), "as this place is"),
                 _ => (
-                    rate(Measured::of(Dimension::NUMBER)),
+                    Measured::of(Dimension::NUMBER).rate(),
                     "as an angular velocity is",
                 ),
             };

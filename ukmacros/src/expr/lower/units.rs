@@ -44,18 +44,16 @@ pub(super) struct Dimensions<'m> {
     pub(super) diag: &'m Diagnostics,
     /// Of parameters.
     pub(super) params: Vec<Measured>,
-    /// Of what stands for numbers and options: symbols behind those of the `first` parameters.
-    pub(super) symbols: Vec<Measured>,
-    pub(super) first: usize,
+    /// Of what stands for numbers, with these, and for options: symbols behind those of the `first` parameters.
+    symbols: Vec<(Measured, Option<f64>)>,
+    first: usize,
     pub(super) coordinates: Vec<Measured>,
     /// Of what multipliers belong to, by the constraint's position.
     pub(super) rows: Vec<Measured>,
     /// By the places of nodes.
     pub(super) nodes: Vec<Measured>,
     /// What stands for a number of this value and this unit.
-    numbers: HashMap<(u64, Option<String>), usize>,
-    /// The values of these.
-    values: HashMap<usize, f64>,
+    numbers: HashMap<(u64, Option<String>), Symbol>,
     pub(super) clash: Option<Clash>,
     /// What is lowered next is a factor.
     pub(super) factor: bool,
@@ -83,7 +81,6 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
         rows: Vec::new(),
         nodes: Vec::new(),
         numbers: HashMap::new(),
-        values: HashMap::new(),
         clash: None,
         factor: false,
     };
@@ -179,6 +176,19 @@ impl Measured {
         self.times(other.power(-1.0))
     }
 
+    /// What the rate of it is.
+    pub(super) fn rate(self) -> Self {
+        self.per(Measured::of(Dimension::TIME))
+    }
+
+    /// What of it is declared.
+    pub(super) fn declared(self) -> Self {
+        match self {
+            Known { declared: true, .. } => self,
+            _ => Unknown,
+        }
+    }
+
     /// What both are, if they may be one; both, if not.
     pub(super) fn with(self, other: Measured) -> Result<Self, (Dimension, Dimension)> {
         match (self, other) {
@@ -239,16 +249,18 @@ impl Dimensions<'_> {
                 same(&mut [a, b].into_iter()).map_err(terms)?;
                 same(&mut [then, otherwise].into_iter()).map_err(terms)?
             }
-            Node::Call(func, args) => match func.row().name {
-                "sqrt" => at(&args[0]).power(0.5),
-                "abs" => at(&args[0]),
-                "min" | "max" | "hypot" | "sign" | "atan2" => {
+            Node::Call(func, args) => match func {
+                Func::Sqrt => at(&args[0]).power(0.5),
+                Func::Abs => at(&args[0]),
+                Func::Min | Func::Max | Func::Hypot | Func::Sign | Func::Atan2 => {
                     let of = same(&mut args.iter());
                     let of = of.map_err(|(a, b)| Clash::Arguments(*func, a, b))?;
-                    let ratio = ["sign", "atan2"].contains(&func.row().name);
-                    if ratio { of.per(of) } else { of }
+                    match func {
+                        Func::Sign | Func::Atan2 => of.per(of),
+                        _ => of,
+                    }
                 }
-                "powf" => {
+                Func::Powf => {
                     plain(*func, at(&args[1]))?;
                     match (at(&args[0]), self.value_of(args[1], g)) {
                         (base, Some(exponent)) => base.power(exponent),
@@ -265,15 +277,14 @@ impl Dimensions<'_> {
 
     fn of_symbol(&self, symbol: Symbol) -> Measured {
         let at = |list: &[Measured], i: usize| list.get(i).copied().unwrap_or(Unknown);
-        let time = Measured::of(Dimension::TIME);
         match symbol {
             Symbol::Param(i) => match i.checked_sub(self.first) {
                 None => at(&self.params, i),
-                Some(i) => at(&self.symbols, i),
+                Some(i) => self.symbols.get(i).map_or(Unknown, |(of, _)| *of),
             },
             Symbol::Coord(i) => at(&self.coordinates, i),
-            Symbol::Velocity(i) => at(&self.coordinates, i).per(time),
-            Symbol::Time => time,
+            Symbol::Velocity(i) => at(&self.coordinates, i).rate(),
+            Symbol::Time => Measured::of(Dimension::TIME),
             Symbol::Multiplier(row) => Measured::of(Dimension::ENERGY).per(at(&self.rows, row)),
             Symbol::Residual(_) | Symbol::Prepared(_) | Symbol::Branch(_) => Unknown,
         }
@@ -281,20 +292,33 @@ impl Dimensions<'_> {
 
     /// The symbol that stands for the number `x`.
     pub(super) fn symbol(&mut self, x: f64, measured: Measured, unit: Option<String>) -> Symbol {
-        let next = self.first + self.symbols.len();
-        let known = self.numbers.entry((x.to_bits(), unit)).or_insert(next);
-        if *known == next {
-            self.symbols.push(measured);
-            self.values.insert(next, x);
+        let key = (x.to_bits(), unit);
+        if let Some(known) = self.numbers.get(&key) {
+            return *known;
         }
-        Symbol::Param(*known)
+        let symbol = self.enter(measured, Some(x));
+        self.numbers.insert(key, symbol);
+        symbol
+    }
+
+    /// The symbol that stands for an option whose default is this.
+    pub(super) fn option(&mut self, default: Measured) -> Symbol {
+        self.enter(default.declared(), None)
+    }
+
+    fn enter(&mut self, measured: Measured, number: Option<f64>) -> Symbol {
+        self.symbols.push((measured, number));
+        Symbol::Param(self.first + self.symbols.len() - 1)
     }
 
     /// The number that `id` stands for.
     pub(super) fn value_of(&self, id: Id, g: &Graph) -> Option<f64> {
         let (c, inner) = g.unscaled(id);
         match g.node(inner) {
-            Node::Symbol(Symbol::Param(i)) => self.values.get(i).map(|x| c * x),
+            Node::Symbol(Symbol::Param(i)) => {
+                let (_, number) = self.symbols.get(i.checked_sub(self.first)?)?;
+                number.map(|x| c * x)
+            }
             Node::Const(x) => Some(c * x.get()),
             _ => None,
         }

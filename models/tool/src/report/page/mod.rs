@@ -7,7 +7,7 @@ mod motion;
 
 use maud::{Markup, html};
 
-use crate::html::{Cell, Page, Section, fixed, power_of_ten, signed};
+use crate::html::{Cell, Page, Section, fixed, message, power_of_ten, signed};
 use crate::numbers;
 
 use super::charts;
@@ -123,7 +123,7 @@ fn head(report: &Report) -> Markup {
         @if cfg!(debug_assertions) {
             p.note { "Measured with a program that was built without optimisation: times and verdicts are not those of a release build." }
         }
-        @for (name, message) in &report.failures { p.note { (name) " could not be measured: " (message) } }
+        @for (name, text) in &report.failures { p.note { (name) " could not be measured: " (message(text)) } }
         @if kept.cases > 0 {
             p {
                 "The default of " code { "Simulation" } ", " (Variant::default().label) " at tolerance " (power_of_ten(DEFAULT_TOLERANCE))

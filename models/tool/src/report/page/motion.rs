@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::claimed;
-use crate::html::{Cell, figure, fixed, power_of_ten, table};
+use crate::html::{Cell, figure, fixed, message, power_of_ten, table};
 use crate::numbers::{duration, short};
 use crate::report::charts;
 use crate::report::study::{Figures, Study};
@@ -36,7 +36,7 @@ pub(super) fn motion(study: &Study) -> Markup {
                 "Left out: "
                 @for (k, left) in study.left_out.iter().enumerate() {
                     @if k > 0 { "; " }
-                    (label(&left.variant)) " (" (left.reason) ")"
+                    (label(&left.variant)) " (" (message(&left.reason)) ")"
                 }
                 "."
             }
