@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use tests::{assert_all_close, assert_close};
 use ukcore::simulate::{CsvWriter, Direction, Record, Sample};
-use ukcore::{Error, Event, Mechanism, Method, Simulation, State};
+use ukcore::{Ensemble, Error, Event, Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
     /// A mass that swings on a spring, and integrals with kinks, jumps and a life of their own.
@@ -140,6 +140,18 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// The oscillator with integrals to which the error of its motion is next to nothing.
+    pub Calm {
+        params { m = 2.0, k = 8.0 }
+        coords { x }
+        mass { x: m }
+        potential { k * sq(x) / 2 }
+        output { force = -k * x }
+        integral { work = -1e-4 * k * x * dot(x), ripple = sin(300 * t), side = 1e-4 * sign(x) }
+    }
+}
+
 #[test]
 fn integrals_leave_no_trace_in_the_motion() {
     let start = State {
@@ -153,18 +165,20 @@ fn integrals_leave_no_trace_in_the_motion() {
         Method::Radau5,
         Method::Rattle { step: 0.01 },
     ] {
-        let with = oscillation(method, 1e-8).until(3.0).unwrap();
+        let with = Simulation::new(Calm::default()).method(method);
+        let with = with.tolerance(1e-8).start(start.clone());
+        let with = with.until(3.0).unwrap();
         let without = Simulation::new(Bare::default())
             .method(method)
             .tolerance(1e-8);
         let without = without.start(start.clone()).dense().until(3.0).unwrap();
         assert_eq!(with.work(), without.work());
         for (a, b) in with.samples().zip(without.samples()) {
-            assert_eq!((a.t, a.q, a.v, a.integrals.len()), (b.t, b.q, b.v, 6));
+            assert_eq!((a.t, a.q, a.v, a.integrals.len()), (b.t, b.q, b.v, 3));
             assert!(b.integrals.is_empty());
         }
     }
-    let [with, without] = [Oscillator::SPEC, Bare::SPEC].map(|spec| spec.structure.costs);
+    let [with, without] = [Calm::SPEC, Bare::SPEC].map(|spec| spec.structure.costs);
     assert_eq!(
         [with.dynamics, with.acceleration, with.correction],
         [without.dynamics, without.acceleration, without.correction]
@@ -334,4 +348,149 @@ fn an_integrand_that_is_not_a_number_ends_the_run_by_name() {
         (1.0 - (1.0 - reached.t).max(0.0).powf(1.5)) / 1.5,
         1e-8,
     );
+}
+
+ukcore::multibody! {
+    /// A mass that swings on a spring, x = cos 2t, with integrands that are next to nothing but for moments.
+    pub Pulses {
+        params { m = 2.0, k = 8.0, w = 1e-3 }
+        coords { x }
+        mass { x: m }
+        potential { k * sq(x) / 2 }
+        let bell = |u| exp(-sq(u / w));
+        integral {
+            in_time = bell(t - 3.3571)
+            twice = bell(t - 0.7312) + 2 * bell(t - 9.7777)
+            // Each time it passes, whatever its speed.
+            in_place = bell(x - 0.3) * abs(dot(x))
+        }
+    }
+}
+
+/// Pulses much shorter than steps, which the motion alone determines, are found and integrated to the tolerance.
+#[test]
+fn pulses_within_long_steps_are_not_passed_over() {
+    for method in [
+        Method::Dop853,
+        Method::Dopri5,
+        Method::Radau5,
+        Method::Rattle { step: 0.1 },
+    ] {
+        for w in [1e-2, 2e-3] {
+            let pulses = Pulses {
+                w,
+                ..Pulses::default()
+            };
+            let start = State {
+                t: 0.0,
+                q: vec![1.0],
+                v: vec![0.0],
+            };
+            let run = Simulation::new(pulses).method(method).tolerance(1e-6);
+            let run = run.start(start).at(vec![10.0]).until(10.0).unwrap();
+            let bell = w * std::f64::consts::PI.sqrt();
+            let expected = [bell, 3.0 * bell, passages_until(10.0) * bell];
+            let found = run.last().unwrap().integrals;
+            for (found, expected) in found.iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() <= 1e-4 * expected,
+                    "{method} {w}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// How often cos 2t is 0.3 until `t`.
+fn passages_until(t: f64) -> f64 {
+    let first = 0.5 * 0.3_f64.acos();
+    let times = (0..).flat_map(|k| {
+        let turn = std::f64::consts::PI * f64::from(k);
+        [turn + first, turn + std::f64::consts::PI - first]
+    });
+    times.take_while(|time| *time < t).count() as f64
+}
+
+ukcore::multibody! {
+    /// A mass that swings on a spring, x = cos 2t, and an integrand that multiplies its error by a.
+    pub Steep {
+        params { m = 2.0, k = 8.0, a = 100.0 }
+        coords { x }
+        mass { x: m }
+        potential { k * sq(x) / 2 }
+        integral { steep = exp(a * (x - 1)) }
+    }
+}
+
+/// ∫ e^(a (cos 2t − 1)) over periods π of the motion: π e^(−a) I₀(a) each, by the series of I₀ for large a.
+#[test]
+fn integrands_that_multiply_errors_shorten_steps() {
+    let a = 100.0_f64;
+    let (mut term, mut sum) = (1.0, 1.0);
+    for k in 1..12 {
+        let odd = f64::from(2 * k - 1);
+        term *= odd * odd / (8.0 * a * f64::from(k));
+        sum += term;
+    }
+    let period = std::f64::consts::PI * sum / (2.0 * std::f64::consts::PI * a).sqrt();
+    let start = State {
+        t: 0.0,
+        q: vec![1.0],
+        v: vec![0.0],
+    };
+    let end = 3.0 * std::f64::consts::PI;
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            let run = Simulation::new(Steep::default())
+                .method(method)
+                .tolerance(tolerance)
+                .start(start.clone());
+            let run = run.until(end).unwrap();
+            let without = Simulation::new(Bare::default())
+                .method(method)
+                .tolerance(tolerance);
+            let without = without.start(start.clone()).until(end).unwrap();
+            let off = (run.last().unwrap().integrals[0] / (3.0 * period) - 1.0).abs();
+            let steps = [run.work().steps, without.work().steps];
+            let at = format!("{method} {tolerance}: off by {off:e}, steps {steps:?}");
+            assert!(off <= 3.0 * a * tolerance, "{at}");
+            match method {
+                Method::Dopri5 => assert!(steps[0] >= steps[1], "{at}"),
+                _ => assert!(steps[0] > steps[1], "{at}"),
+            }
+        }
+    }
+}
+
+/// Members of an ensemble integrate as runs by themselves do.
+#[test]
+fn members_of_ensembles_have_integrals() {
+    let members: Vec<(Oscillator, State)> = (0..11)
+        .map(|k| {
+            let k = f64::from(k);
+            let oscillator = Oscillator {
+                k: 5.0 + k,
+                ..Oscillator::default()
+            };
+            let start = State {
+                t: 0.1 * k,
+                q: vec![1.0 - 0.05 * k],
+                v: vec![0.3],
+            };
+            (oscillator, start)
+        })
+        .collect();
+    let found = Ensemble::new(members.clone())
+        .tolerance(1e-9)
+        .every(0.3)
+        .until(4.0);
+    for ((oscillator, start), member) in members.into_iter().zip(found) {
+        let run = Simulation::new(oscillator)
+            .tolerance(1e-9)
+            .start(start)
+            .until(4.0)
+            .unwrap();
+        let expected = run.last().unwrap().integrals.to_vec();
+        assert_all_close("a member", &member.unwrap().integrals, &expected, 1e-7);
+    }
 }

@@ -342,6 +342,9 @@ held! {
     Slot [planar a { mass: 2, inertia: 1, centre: [0.1, 0.2] }] [holonomic { j: slot(ground.at([0, 0]), a.at([0, 0]), [1, 2]) }];
     Wheel [planar a { mass: 2, inertia: 1 }] [gravity { [9.81, 0] } holonomic { j: wheel(ground.at([0, 0]), a.at([0, 0]), [1, 0], 0.5) }];
     Rod [planar a { mass: 2, inertia: 1, centre: [0.1, 0.2] }] [holonomic { j: rod(ground.at([0, 1]), a.at([0, 0]), 1) }];
+    Rack [planar a { mass: 2, inertia: 1 }] [holonomic { j: rack(ground.at([0, 0]), a.at([0, 0]), [1, 0], 0.5) }];
+    Gear [planar a { mass: 2, inertia: 1 } planar b { mass: 2, inertia: 1 }]
+        [holonomic { i: pin(ground.at([0, 0]), a.at([0, 0])), j: pin(ground.at([3, 0]), b.at([0, 0])), teeth: gear(a, b, 1, 2) }];
     Motor [planar a { mass: 2, inertia: 1 }] [holonomic { j: pin(ground.at([0, 0]), a.at([0, 0])), motor: turn(ground, a) = sin(t) }];
     Ball [spatial a { mass: 2, inertia: [1, 1.5, 2], centre: [0.1, 0.2, 0] }] [holonomic { j: ball(ground.at([0, 0, 0]), a.at([0, 0, 0])) }];
     Hinge [spatial a { mass: 2, inertia: [1, 1.5, 2, 0.1, 0, 0.2], centre: [0.1, 0.2, 0] }]
@@ -404,6 +407,8 @@ fn degrees_of_freedom_are_those_counted_by_hand() {
     check::<Slot>(2);
     check::<Wheel>(1);
     check::<Rod>(2);
+    check::<Rack>(2);
+    check::<Gear>(1);
     check::<Motor>(0);
     check::<Ball>(3);
     check::<Hinge>(1);
@@ -415,6 +420,43 @@ fn degrees_of_freedom_are_those_counted_by_hand() {
     check::<Strut>(5);
     check::<Screw>(1);
     check::<Disc>(3);
+}
+
+ukcore::multibody! {
+    /// A four-bar linkage of hinges with parallel axes: in space 20 rows on 18 freedoms, and yet it moves.
+    Loop {
+        params { l[3] = [0.5, 2.0, 1.5], span = 2.0, axis[3] = [0.0, 0.0, 1.0] }
+        bodies { for i in 0..3 { spatial bar[i] { mass: 1, inertia: [0.01, 0.2, 0.2], centre: [l[i] / 2, 0, 0] } } }
+        holonomic {
+            o: hinge(ground.at([0, 0, 0]), bar[0].at([0, 0, 0]), axis)
+            p: hinge(bar[0].at([l[0], 0, 0]), bar[1].at([0, 0, 0]), axis)
+            q: hinge(bar[1].at([l[1], 0, 0]), bar[2].at([l[2], 0, 0]), axis)
+            r: hinge(ground.at([span, 0, 0]), bar[2].at([0, 0, 0]), axis)
+        }
+        start open {
+            bar[0].e0 near cos(0.5); bar[0].e3 near sin(0.5); bar[1].e0 near cos(0.15); bar[1].e3 near sin(0.15);
+            bar[2].e0 near cos(0.7); bar[2].e3 near sin(0.7)
+        }
+    }
+}
+
+/// Three rows say again that the loop closes along the axes and that these are parallel; those in the plane are none of them.
+#[test]
+fn a_loop_in_space_names_what_is_redundant() {
+    let start = Loop::default().start("open", &[].into()).expect("a start");
+    let solution = solved::<Loop>(&start);
+    assert_eq!(solution.degrees_of_freedom, 1);
+    let names = solution
+        .redundant
+        .iter()
+        .map(|c| Loop::SPEC.constraints[*c].name);
+    let names: Vec<&str> = names.collect();
+    assert_eq!(names.len(), 3, "{names:?}");
+    for name in names {
+        let (joint, row) = name.split_once('.').expect("a row of a joint");
+        assert!("opqr".contains(joint), "{name}");
+        assert!(["z", "tilt0", "tilt1"].contains(&row), "{name}");
+    }
 }
 
 /// m a = λ + m g and J α = arm × λ: the multipliers of a pin are the force on its second body, in axes of the ground.

@@ -133,6 +133,7 @@ fn ukcore() {
             "error",
             "scalar",
             "scan",
+            "random",
             "rounding",
             "zero",
             "spec",

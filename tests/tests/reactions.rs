@@ -10,7 +10,7 @@ use ukcore::{
 
 /// A body of each with gravity, that the given joint connects.
 macro_rules! spatial {
-    ($($name:ident { $($rows:tt)* } $nonholonomic:tt force $force:tt moment $moment:tt)*) => {$(
+    ($($name:ident { $($rows:tt)* } $nonholonomic:tt force $force:tt moment $moment:tt whole $whole:tt)*) => {$(
         ukcore::multibody! {
             #[allow(dead_code)]
             pub $name {
@@ -22,7 +22,7 @@ macro_rules! spatial {
                 gravity { [0.5, -0.3, -9.81] }
                 holonomic { $($rows)* }
                 nonholonomic $nonholonomic
-                output { force = $force, moment = $moment, arm = b.at([0.1, 0.4, -0.3]) - b.centre }
+                output { force = $force, moment = $moment, arm = b.at([0.1, 0.4, -0.3]) - b.centre, whole = $whole }
             }
         }
     )*};
@@ -30,7 +30,7 @@ macro_rules! spatial {
 
 /// As [`spatial`], of planar bodies.
 macro_rules! planar {
-    ($($name:ident { $($rows:tt)* } force $force:tt moment $moment:tt)*) => {$(
+    ($($name:ident { $($rows:tt)* } force $force:tt moment $moment:tt whole $whole:tt)*) => {$(
         ukcore::multibody! {
             #[allow(dead_code)]
             pub $name {
@@ -41,61 +41,61 @@ macro_rules! planar {
                 }
                 gravity { [0.5, -9.81] }
                 holonomic { $($rows)* }
-                output { force = $force, moment = $moment, arm = b.at([0.1, 0.4]) - b.centre }
+                output { force = $force, moment = $moment, arm = b.at([0.1, 0.4]) - b.centre, whole = $whole }
             }
         }
     )*};
 }
 
-// The moment is that about the point of the joint.
+// The moment is that about the point of the joint, by the multipliers of its rows; `whole` is what `moment` makes of them.
 planar! {
-    Pin { j: pin(a.at([0.3, -0.2]), b.at([0.1, 0.4])) } force (reaction(j)) moment 0
-    Weld { j: weld(a.at([0.3, -0.2]), b.at([0.1, 0.4]), 0.3) } force (reaction(j)) moment (reaction(j.angle))
-    Slider { j: slider(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d, 0.3) } force (reaction(j)) moment (reaction(j.angle))
-    Slot { j: slot(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d) } force (reaction(j)) moment 0
+    Pin { j: pin(a.at([0.3, -0.2]), b.at([0.1, 0.4])) } force (reaction(j)) moment 0 whole (moment(j))
+    Weld { j: weld(a.at([0.3, -0.2]), b.at([0.1, 0.4]), 0.3) } force (reaction(j)) moment (reaction(j.angle)) whole (moment(j))
+    Slider { j: slider(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d, 0.3) } force (reaction(j)) moment (reaction(j.angle)) whole (moment(j))
+    Slot { j: slot(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d) } force (reaction(j)) moment 0 whole (moment(j))
     Wheel { j: wheel(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d, r) }
-        force (reaction(j)) moment (cross(-r * a.along(normal(d)), reaction(j)))
+        force (reaction(j)) moment (cross(-r * a.along(normal(d)), reaction(j))) whole (moment(j))
     Rack { j: rack(a.at([0.3, -0.2]), b.at([0.1, 0.4]), d, r) }
-        force (reaction(j)) moment (cross(-r * a.along(normal(d)), reaction(j)))
-    Rod { j: rod(a.at([0.3, -0.2]), b.at([0.1, 0.4]), 1.2) } force (reaction(j)) moment 0
+        force (reaction(j)) moment (cross(-r * a.along(normal(d)), reaction(j))) whole (moment(j))
+    Rod { j: rod(a.at([0.3, -0.2]), b.at([0.1, 0.4]), 1.2) } force (reaction(j)) moment 0 whole (moment(j))
     Motor { j: pin(a.at([0.3, -0.2]), b.at([0.1, 0.4])) motor: turn(a, b) = sin(t) }
-        force (reaction(j)) moment (reaction(motor))
+        force (reaction(j)) moment (reaction(motor)) whole (moment(j) + moment(motor))
     Gear { j: pin(a.at([0.3, -0.2]), b.at([0.1, 0.4])) teeth: gear(a, b, 0.5, r) }
-        force (reaction(j)) moment (r * reaction(teeth))
+        force (reaction(j)) moment (r * reaction(teeth)) whole (moment(j) + moment(teeth))
     // The first body's force, and the ground as the second one.
-    Ground { j: pin(b.at([0.1, 0.4]), ground.at([0.2, 0.1])) } force (-reaction(j)) moment 0
-    Rows { j: a.at([0.3, -0.2]) = b.at([0.1, 0.4]) } force (-reaction(j)) moment 0
+    Ground { j: pin(b.at([0.1, 0.4]), ground.at([0.2, 0.1])) } force (-reaction(j)) moment 0 whole (-moment(j))
+    Rows { j: a.at([0.3, -0.2]) = b.at([0.1, 0.4]) } force (-reaction(j)) moment 0 whole 0
 }
 
 spatial! {
-    Ball { j: ball(a.at(u), b.at([0.1, 0.4, -0.3])) } {} force (reaction(j)) moment (0 * u)
+    Ball { j: ball(a.at(u), b.at([0.1, 0.4, -0.3])) } {} force (reaction(j)) moment (0 * u) whole (moment(j))
     Hinge { j: hinge(a.at(u), b.at([0.1, 0.4, -0.3]), u, w) } {} force (reaction(j))
         moment (reaction(j.tilt0) * cross(b.along(normalise(w)), a.along(normals(u)[0]))
-            + reaction(j.tilt1) * cross(b.along(normalise(w)), a.along(normals(u)[1])))
+            + reaction(j.tilt1) * cross(b.along(normalise(w)), a.along(normals(u)[1]))) whole (moment(j))
     Universal { j: universal(a.at(u), b.at([0.1, 0.4, -0.3]), u, w) } {} force (reaction(j))
-        moment (reaction(j.cross) * cross(b.along(normalise(w)), a.along(normalise(u))))
+        moment (reaction(j.cross) * cross(b.along(normalise(w)), a.along(normalise(u)))) whole (moment(j))
     Cylinder { j: cylinder(a.at(u), b.at([0.1, 0.4, -0.3]), u, w) } {} force (reaction(j))
         moment (reaction(j.tilt0) * cross(b.along(normalise(w)), a.along(normals(u)[0]))
-            + reaction(j.tilt1) * cross(b.along(normalise(w)), a.along(normals(u)[1])))
+            + reaction(j.tilt1) * cross(b.along(normalise(w)), a.along(normals(u)[1]))) whole (moment(j))
     Screw { j: cylinder(a.at(u), b.at([0.1, 0.4, -0.3]), u, w) } { s: screw(a.at(u), b.at([0.1, 0.4, -0.3]), u, lead) }
         force (reaction(j) + reaction(s))
         moment (reaction(j.tilt0) * cross(b.along(normalise(w)), a.along(normals(u)[0]))
             + reaction(j.tilt1) * cross(b.along(normalise(w)), a.along(normals(u)[1]))
-            - lead / (2 * PI) * reaction(s))
+            - lead / (2 * PI) * reaction(s)) whole (moment(j) + moment(s))
     Prism { j: slider(a.at(u), b.at([0.1, 0.4, -0.3]), u) } {} force (reaction(j))
         moment (reaction(j.xy) * cross(b.along([0, 1, 0]), a.along([1, 0, 0])) + reaction(j.yz) * cross(b.along([0, 0, 1]), a.along([0, 1, 0]))
-            + reaction(j.zx) * cross(b.along([1, 0, 0]), a.along([0, 0, 1])))
+            + reaction(j.zx) * cross(b.along([1, 0, 0]), a.along([0, 0, 1]))) whole (moment(j))
     Welded { j: weld(a.at(u), b.at([0.1, 0.4, -0.3])) } {} force (reaction(j))
         moment (reaction(j.xy) * cross(b.along([0, 1, 0]), a.along([1, 0, 0])) + reaction(j.yz) * cross(b.along([0, 0, 1]), a.along([0, 1, 0]))
-            + reaction(j.zx) * cross(b.along([1, 0, 0]), a.along([0, 0, 1])))
-    Strut { j: rod(a.at(u), b.at([0.1, 0.4, -0.3]), 1.2) } {} force (reaction(j)) moment (0 * u)
+            + reaction(j.zx) * cross(b.along([1, 0, 0]), a.along([0, 0, 1]))) whole (moment(j))
+    Strut { j: rod(a.at(u), b.at([0.1, 0.4, -0.3]), 1.2) } {} force (reaction(j)) moment (0 * u) whole (moment(j))
     Driven { j: hinge(a.at(u), b.at([0.1, 0.4, -0.3]), u) drive: drive(a, b, u, 2 * t) } {} force (reaction(j))
         moment (reaction(j.tilt0) * cross(b.along(normalise(u)), a.along(normals(u)[0]))
             + reaction(j.tilt1) * cross(b.along(normalise(u)), a.along(normals(u)[1]))
-            + reaction(drive) * cross(b.along(normals(u)[1]), a.along(cos(2 * t) * normals(u)[0] + sin(2 * t) * normals(u)[1])))
+            + reaction(drive) * cross(b.along(normals(u)[1]), a.along(cos(2 * t) * normals(u)[0] + sin(2 * t) * normals(u)[1]))) whole (moment(j) + moment(drive))
     // Forces act at the point of contact, r below the centre of the disc in its plane.
     Rolling { j: disc(b.at([0.1, 0.4, -0.3]), u, r) } { k: rolls(b.at([0.1, 0.4, -0.3]), u, r) } force (reaction(j) + reaction(k))
-        moment (cross(r * normalise(b.along(normalise(u))[2] * b.along(normalise(u)) - [0, 0, 1]), reaction(j) + reaction(k)))
+        moment (cross(r * normalise(b.along(normalise(u))[2] * b.along(normalise(u)) - [0, 0, 1]), reaction(j) + reaction(k))) whole (moment(j) + moment(k))
 }
 
 /// A consistent state near a random sketch, if there is one, its accelerations, and its outputs.
@@ -113,7 +113,43 @@ fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
     Some((start, acceleration, outputs))
 }
 
-/// Newton's and Euler's equations of body b, and Newton's of body a if nothing else holds it.
+/// The energy changes by what constraints that change with time feed in, −λ ∂φ/∂t, and by nothing else.
+fn balanced<M: Mechanism>(start: &State, acceleration: &[f64]) {
+    let mechanism = M::default();
+    let prepared = mechanism.prepared::<f64>();
+    let h = 1e-3;
+    let fourth = |of: &dyn Fn(f64) -> f64| {
+        (8.0 * (of(h) - of(-h)) - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
+    };
+    let energy = |s: f64| {
+        let change = |x: &[f64], v: &[f64], a: f64| -> Vec<f64> {
+            let terms = x.iter().zip(v).zip(acceleration);
+            terms.map(|((x, v), b)| x + s * v + a * s * s * b).collect()
+        };
+        let q = change(&start.q, &start.v, 0.5);
+        let v = change(&start.v, acceleration, 0.0);
+        prepared.energy(start.t + s, &q, &v).total()
+    };
+    let mut solver = Solver::new(&mechanism, SolverOptions::default());
+    let solution = solver.solve(start.t, &start.q, &start.v).unwrap();
+    let fed: f64 = (0..M::SPEC.holonomic)
+        .map(|c| {
+            let residual = |s: f64| {
+                let later = State {
+                    t: start.t + s,
+                    ..start.clone()
+                };
+                ukcore::assemble::residuals(&mechanism, &later)
+                    .unwrap()
+                    .position[c]
+            };
+            -solution.multipliers[c] * fourth(&residual)
+        })
+        .sum();
+    assert_close(M::SPEC.name, fourth(&energy), fed, 1e-7);
+}
+
+/// Newton's and Euler's equations of body b, and Newton's of body a if nothing else holds it; the balance of power.
 fn planar<M: Mechanism>(of_a: bool) {
     let mut random = Random::new(17);
     let mut sizes = 0.0;
@@ -123,11 +159,15 @@ fn planar<M: Mechanism>(of_a: bool) {
             q: random.vector(6),
             v: random.vector(6),
         };
-        let (_, x, out) = motion::<M>(sketch).unwrap();
+        let (start, x, out) = motion::<M>(sketch).unwrap();
+        balanced::<M>(&start, &x);
         let (force, moment, arm) = (&out[..2], out[2], &out[3..5]);
         let name = M::SPEC.name;
         let newton = [2.0 * (x[3] - 0.5), 2.0 * (x[4] + 9.81)];
         assert_all_close(name, force, &newton, 1e-9);
+        if name != "Rows" {
+            assert_close(name, out[5], moment, 1e-9);
+        }
         let turning = moment + arm[0] * force[1] - arm[1] * force[0];
         assert_close(name, turning, 0.4 * x[5], 1e-9);
         if of_a {
@@ -165,6 +205,7 @@ fn spatial<M: Mechanism>(of_a: bool) {
             continue;
         };
         found += 1;
+        balanced::<M>(&start, &x);
         let vector = |at: usize| Vector3::from_column_slice(&out[at..at + 3]);
         let (force, moment, arm) = (vector(0), vector(3), vector(6));
         let name = M::SPEC.name;
@@ -183,6 +224,7 @@ fn spatial<M: Mechanism>(of_a: bool) {
         let alpha = (second * e.conjugate()).vector() * 2.0;
         let inertia = turn * inertia * turn.transpose();
         let euler = inertia * alpha + omega.cross(&(inertia * omega));
+        assert_all_close(name, &out[9..12], moment.as_slice(), 1e-8);
         let turning = moment + arm.cross(&force);
         assert_all_close(name, turning.as_slice(), euler.as_slice(), 1e-8);
         sizes += force.norm() + moment.norm();

@@ -4,20 +4,21 @@
 //! satisfies every constraint: a search finds the place, and projection in the mass metric gives the last digits; velocities that enter
 //! linearly it gives at once. For the search each coordinate is scaled by the root of its inertia, so that the state found is near in the
 //! mass metric.
+//!
+//! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
+//! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
+//! mechanism together; of those found the nearest in that metric is taken, over all that depends on the choice.
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::manifold::{At, Level, Manifold};
+use crate::manifold::{At, Level};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
 use crate::spec::{GuessKind, Spec};
 
-/// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
-/// coincide has vanishing gradients, from which only a perturbation leads away.
-const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
+mod search;
 
-/// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
-const GOLDEN: f64 = 0.618_033_988_749_895;
+pub(crate) use search::Search;
 
 /// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,6 +123,9 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
 ///
+/// Where what is held leaves as many constraints as coordinates, states lie apart, and the one with the least Σ M_jj Δq_j² is looked for; where
+/// coordinates stay free it is the one that the search from the guess leads to.
+///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in
 ///   conflict with the residuals that remain where their squares (scaled) are least, and the held coordinates where these are the cause.
@@ -155,6 +159,8 @@ pub(crate) fn held(spec: &Spec, names: &[&str]) -> Result<Vec<usize>, Error> {
 pub(crate) struct Held {
     pub(crate) positions: Vec<usize>,
     pub(crate) velocities: Vec<usize>,
+    /// Coordinates of whose position the guess says nothing: of several states they do not choose.
+    pub(crate) untold: Vec<usize>,
     /// Of quaternions the coordinates, four by four, in whose velocities an angular velocity stands.
     pub(crate) turning: Vec<(usize, GuessKind)>,
 }
@@ -164,6 +170,7 @@ impl Held {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,
+            untold: Vec::new(),
             turning: Vec::new(),
         }
     }
@@ -182,6 +189,7 @@ impl Held {
         Held {
             positions: others(&self.positions),
             velocities: others(&self.velocities),
+            untold: self.untold.clone(),
             turning: self.turning.clone(),
         }
     }
@@ -216,6 +224,7 @@ pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<St
 
 fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     let mut search = Search::new(mech, guess, &held.positions);
+    search.untold.clone_from(&held.untold);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
     Search::velocities(mech, guess, held, q)
 }
@@ -234,88 +243,6 @@ fn blame(mech: &Prepared, guess: &State, held: &Held, mut error: Error) -> Error
         cause.extend(names);
     }
     error
-}
-
-/// The search for q, then for q̇.
-pub(crate) struct Search {
-    pub(crate) manifold: Manifold,
-    /// Coordinates that may change.
-    pub(crate) free: Vec<usize>,
-}
-
-impl Search {
-    pub(crate) fn new(mech: &Prepared, guess: &State, held: &[usize]) -> Self {
-        let n = mech.spec().n();
-        let mut mass = vec![0.0; n * n];
-        mech.mass_matrix(guess.t, &guess.q, &mut mass);
-        let inertia = |j: usize| Some(mass[j * n + j]).filter(|m| *m > 0.0 && m.is_finite());
-        let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
-        // Massless coordinates move as readily as the middling massive ones.
-        let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
-        // How readily each moves: 1/√M_jj.
-        let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
-        Search {
-            manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
-            free: (0..n).filter(|j| !held.contains(j)).collect(),
-        }
-    }
-
-    /// The state at `q` whose velocities are next to those of `guess`.
-    pub(crate) fn velocities(
-        mech: &Prepared,
-        guess: &State,
-        held: &Held,
-        q: Vec<f64>,
-    ) -> Result<State, Error> {
-        let mut search = Search::new(mech, guess, &held.velocities);
-        let v = held.rates(&q, &guess.v);
-        let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
-        Ok(State { t: guess.t, q, v })
-    }
-
-    /// The solution for one level; tries the guess, then perturbations of it, and all of them again with coordinates that move alike.
-    pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut x = guess.to_vec();
-        if at.linear() && self.manifold.project(at, &mut x).is_ok() {
-            return Ok(x);
-        }
-        let size = match largest(guess) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
-        let mut least = f64::INFINITY;
-        // Of what is linear there is nothing else to find.
-        let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
-        for even in [false, true] {
-            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
-            if even {
-                self.manifold.even();
-            }
-            for shake in shakes {
-                let mut place = guess.to_vec();
-                for (k, &j) in self.free.iter().enumerate() {
-                    // Deterministic, and no two coordinates alike.
-                    let share = ((k as f64 + 1.0) * GOLDEN).fract();
-                    place[j] += shake * size * (2.0 * share - 1.0);
-                }
-                let cost = self.manifold.search(at, guess, &mut place);
-                if cost == 0.0 {
-                    return Ok(place);
-                }
-                if cost < least && !even {
-                    (least, x) = (cost, place);
-                }
-            }
-        }
-        Err(match self.manifold.refusal(at, &x) {
-            Error::OffConstraint { level, constraints } => Error::NotAssembled {
-                level,
-                constraints,
-                held: Vec::new(),
-            },
-            error => error,
-        })
-    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
-use crate::nearby::Random;
+use crate::random::Random;
 use crate::scan::{largest, largest_difference};
 use crate::start::{Said, StartOptions};
 

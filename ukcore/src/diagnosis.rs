@@ -9,7 +9,8 @@ use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
-use crate::nearby::{Random, nearby};
+use crate::nearby::nearby;
+use crate::random::Random;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 

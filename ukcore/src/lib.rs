@@ -57,6 +57,7 @@ mod noise;
 pub mod numbers;
 mod pinv;
 pub mod plan;
+mod random;
 mod rounding;
 mod saddle;
 pub mod scalar;

@@ -21,11 +21,14 @@ use crate::solver::Baumgarte;
 mod acceptance;
 mod level;
 mod newton;
+mod parts;
 mod rank_revealing;
 mod search;
 
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
+pub(crate) use parts::{Part, parts};
+pub(crate) use search::Reached;
 
 use newton::Steps;
 use rank_revealing::Factors;
@@ -214,7 +217,7 @@ impl Projector {
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);
         newton.rounding(&at, q, &mut self.manifold.noise, [Size::new(0.0); 2]);
-        newton.acceptance.length(at.rows())
+        newton.acceptance.length(0..at.rows())
     }
 
     /// The mechanism, with the parameters whose constraints count.

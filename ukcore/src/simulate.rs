@@ -36,7 +36,6 @@ mod vanishing;
 
 use agenda::Sampling;
 use energy::EnergyWatch;
-use integrals::Integrals;
 use record::Sink;
 use run::{Progress, Run};
 use vanishing::RowWatch;
@@ -285,10 +284,8 @@ impl Simulation {
             trajectory: Box::new(trajectory),
         };
         let admitted = self.admit(t_end, sink);
-        let (mut recorder, start, mut settings) =
+        let (recorder, start, settings) =
             admitted.map_err(|error| failure(error, self.trajectory()))?;
-        recorder.integrals = Integrals::new(&self.mechanism, self.tolerance);
-        settings.dense |= recorder.integrals.is_some();
         let has_switches = !self.mechanism.spec().switches.is_empty();
         let (located, energy) = match self.method {
             // Its steps are of one size: they go across switches, as do those made in their place.

@@ -108,8 +108,10 @@ impl Prepared {
     ///   not finite.
     /// - [`Error::NotAssembled`] where no state near what it says satisfies all constraints.
     pub fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let Said { guess, held, .. } = self.said(name, options)?;
-        assembled(self, &guess, held)
+        let Said { guess, held, told } = self.said(name, options)?;
+        let untold = (0..self.spec().n()).filter(|j| !told.contains(j));
+        let untold = untold.collect();
+        assembled(self, &guess, Held { untold, ..held })
     }
 
     /// What the declared start called `name` says with `options`.

@@ -4,8 +4,9 @@ ukcore::multibody! {
     /// A platform on six legs whose lengths are driven, so that it heaves, yaws and nods: the leg forces are the multipliers.
     ///
     /// Stewart, A platform with six degrees of freedom, Proc. Inst. Mech. Eng. 180 (1965) 371; legs without mass between joints in pairs on
-    /// two circles. Place and attitude that the lengths are made for are `place` and `attitude`; other ways to put the platform on legs
-    /// of the same lengths exist, up to 40.
+    /// two circles. The paper gives no masses of legs, so they have none: a leg without mass pushes along its line alone and is one row,
+    /// where one with mass would be two bodies, on a universal and a ball joint with a cylinder between. Place and attitude that the
+    /// lengths are made for are `place` and `attitude`; other ways to put the platform on legs of the same lengths exist, up to 40.
     pub Stewart {
         params {
             m = 10.0 [kg],

@@ -230,6 +230,7 @@ impl Course {
                 h,
                 coefficients,
             }),
+            error: None,
             nearby: false,
         }
     }

@@ -239,7 +239,8 @@ impl Driver<'_> {
         self.survey(trial, made.is_ok())?;
         let error = made?;
         let interpolated = self.stay(trial, error)?;
-        let next = self.show(trial, interpolated)?;
+        let (next, along) = self.show(trial, interpolated, error)?;
+        let error = error.max(small(along)?);
         if self.gap.is_none() {
             let (t, y) = self.passage.before.get_or_insert_default();
             *t = self.equations.course.now.t;
@@ -330,12 +331,18 @@ impl Driver<'_> {
         ))
     }
 
-    /// Shows the problem the step, with its interpolant if one is wanted.
-    fn show(&mut self, trial: Trial, interpolated: bool) -> Result<Next, Refusal> {
+    /// Shows the problem the step, whose error is `error`, with its interpolant if one is wanted. Returns the error of what the problem
+    /// makes of it, too.
+    fn show(
+        &mut self,
+        trial: Trial,
+        interpolated: bool,
+        error: f64,
+    ) -> Result<(Next, f64), Refusal> {
         let equations = &mut self.equations;
         let known = self.shown.as_ref().map(|(t, y)| Sample::of(*t, y));
         if known.is_some_and(|known| equations.course.ahead(known.t) >= trial.h.abs()) {
-            return Ok(Next::Continue);
+            return Ok((Next::Continue, 0.0));
         }
         let next = equations.problem.next_sample();
         let wanted = self.settings.dense
@@ -345,10 +352,14 @@ impl Driver<'_> {
             let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;
         }
+        if wanted {
+            self.scheme.scale_error(error);
+        }
         let coefficients = wanted.then(|| self.scheme.dense());
         let mut step = (equations.course).show(trial, self.scheme.states(), coefficients);
         step.old = known.unwrap_or(step.old);
         step.nearby = equations.nearby;
+        step.error = self.scheme.error().filter(|_| wanted);
         let shown = equations.problem.step(&step);
         let next =
             shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))?;

@@ -55,6 +55,14 @@ impl Scheme for Explicit {
         self.stepper.dense()
     }
 
+    fn scale_error(&mut self, norm: f64) {
+        self.stepper.scale_error(norm);
+    }
+
+    fn error(&self) -> Option<&[f64]> {
+        Some(self.stepper.estimate())
+    }
+
     fn advance(&mut self) {
         self.stepper.advance(|new, _| new);
     }

@@ -11,7 +11,7 @@
 //! 2. project the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
 //! 3. evaluate f at the projected state, for the next step to begin with;
 //! 4. where a switching function has changed its sign, repeat the step up to its zero;
-//! 5. samples, events, the interpolant.
+//! 5. samples, events, the interpolant; integrals along the step, whose error may reject it as that of 1 does.
 //!
 //! Dopri5 needs what 3 gives for its estimate, which then comes after it.
 //!
@@ -52,7 +52,7 @@ use sample::Sample;
 pub(crate) use stepper::{Rates, Stepper};
 pub(crate) use sums::Tolerance;
 #[cfg(feature = "ensemble")]
-pub(crate) use sums::projection_norm;
+pub(crate) use sums::{projection_norm, sized};
 pub(crate) use trouble::Trouble;
 
 /// The methods on offer.
@@ -189,8 +189,9 @@ pub(crate) trait Problem {
     fn set_branch(&mut self, k: usize, branch: Branch) {
         let _ = (k, branch);
     }
-    /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.
-    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
+    /// Called after each step that is good, with the error of what the problem makes of it, in terms of what is allowed. After an error, or
+    /// one above 1, nothing of this call may be kept: the step is tried again, shorter.
+    fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error>;
 }
 
 /// A position ahead of a motion, or behind it, where constraints come to imply the others.
@@ -230,6 +231,8 @@ pub(crate) struct Step<'a> {
     pub(crate) until: f64,
     /// States between; there if [`Settings::dense`] is set, if [`Problem::next_sample`] lies in this step or if that goes on behind the end.
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
+    /// What the state at its end is thought to be off, at most 1 in the error norm; there with the interpolant, if the method estimates it.
+    pub(crate) error: Option<&'a [f64]>,
     /// It is near a singular position, or goes over it.
     pub(crate) nearby: bool,
 }

@@ -23,7 +23,7 @@ use super::control::{SAFETY, StepSize, first_size};
 use super::course::Trial;
 use super::scheme::{Equations, Scheme};
 use super::stepper::Rates;
-use super::sums::{sum_of_squares, weights};
+use super::sums::{sized, sum_of_squares, weights};
 use super::trouble::Cause;
 use newton::{Matrices, Newton, Solved};
 
@@ -55,6 +55,11 @@ fn estimate_tolerance(run: Tolerance) -> Tolerance {
         relative,
         absolute: run.absolute / run.relative * relative,
     }
+}
+
+/// The relative tolerance of a run, where that of the estimate is `estimate`.
+fn run_tolerance(estimate: f64) -> f64 {
+    (10.0 * estimate).powf(1.5)
 }
 
 /// Whether the Jacobian changes so much within steps that one of it will not do.
@@ -293,6 +298,17 @@ impl Scheme for Radau {
 
     fn dense(&self) -> &[f64] {
         &self.dense
+    }
+
+    /// In the direction of the error of order 3.
+    fn scale_error(&mut self, norm: f64) {
+        let states = [&self.start[..], &self.end];
+        let share = run_tolerance(self.tolerance.relative) / self.tolerance.relative;
+        sized(&mut self.error, states, self.tolerance, share * norm);
+    }
+
+    fn error(&self) -> Option<&[f64]> {
+        Some(&self.error)
     }
 
     fn advance(&mut self) {

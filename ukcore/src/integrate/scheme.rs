@@ -139,6 +139,16 @@ pub(super) trait Scheme {
     /// Coefficients of the interpolant, rows as [`Interpolant`](super::dense::Interpolant) wants them.
     fn dense(&self) -> &[f64];
 
+    /// Gives [`error`](Scheme::error) of the closed step the size `norm` in the error norm.
+    fn scale_error(&mut self, norm: f64) {
+        let _ = norm;
+    }
+
+    /// What the state at the end of the closed step is thought to be off; `None` where there is no telling.
+    fn error(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// Moves on to the end of the closed step.
     fn advance(&mut self);
 

@@ -5,7 +5,7 @@
 
 use super::control::{Control, first_size};
 use super::dense::cubic;
-use super::sums::{Tolerance, keeping, sum_of_squares, weights};
+use super::sums::{Tolerance, keeping, sized, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::lanes::Lanes;
 use crate::scalar::Scalar;
@@ -42,6 +42,14 @@ pub(crate) struct Stepper<S> {
     errors: Vec<S>,
     /// Rows of coefficients of the interpolant.
     dense: Vec<S>,
+}
+
+impl Stepper<f64> {
+    /// Gives the [estimate](Stepper::estimate) of a closed step the size `norm`.
+    pub(super) fn scale_error(&mut self, norm: f64) {
+        let states = [&self.start[..], &self.end];
+        sized(&mut self.errors[..self.n], states, self.tolerance, norm);
+    }
 }
 
 impl<L: Lanes> Stepper<L> {
@@ -200,6 +208,11 @@ impl<S: Scalar> Stepper<S> {
         let both = best + S::from_f64(0.01) * other;
         let divisor = S::select_le(both, zero, S::from_f64(1.0), both);
         best / (S::from_f64(n.max(1) as f64) * divisor).sqrt()
+    }
+
+    /// Where the state at the end of the attempted step is thought to be off, but for its size: the first estimate.
+    pub(crate) fn estimate(&self) -> &[S] {
+        &self.errors[..self.n]
     }
 
     /// Makes the [coefficients](Stepper::dense) of the interpolant of the closed step; evaluates stages for it if the method needs them.

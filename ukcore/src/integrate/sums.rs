@@ -104,6 +104,13 @@ pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
+/// Gives `error`, of a step between these states, the size `norm` in the error norm; 0 stays 0.
+pub(crate) fn sized(error: &mut [f64], states: [&[f64]; 2], tolerance: Tolerance, norm: f64) {
+    let size = projection_norm(error.iter().copied(), states, tolerance);
+    let factor = if size > 0.0 { norm / size } else { 0.0 };
+    error.iter_mut().for_each(|error| *error *= factor);
+}
+
 /// The norm of `change`, which a projection makes of `raw`, the end of a step that begins at `old`.
 pub(crate) fn projection_norm<S: Scalar>(
     change: impl Iterator<Item = S>,

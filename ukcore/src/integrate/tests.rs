@@ -124,7 +124,7 @@ impl Problem for Plain {
     fn next_sample(&self) -> Option<f64> {
         self.sample
     }
-    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
+    fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {
         let (t_old, Sample { t, q, v, .. }) = (step.old.t, step.new);
         if t > self.fail_after {
             return Err(failure());
@@ -137,7 +137,7 @@ impl Problem for Plain {
             self.sample = self.sample.map(|t| t + 1.0);
         }
         self.steps.push((t_old, t, [q, v].concat()));
-        Ok(Next::Continue)
+        Ok((Next::Continue, 0.0))
     }
 }
 

@@ -85,11 +85,11 @@ impl Acceptance<f64> {
         }
     }
 
-    /// How far off the constraints x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where one is
-    /// not a number.
-    pub(super) fn distance(&self, residual: &[f64]) -> f64 {
-        let rows = residual.iter().enumerate();
-        rows.filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
+    /// How far off the constraints `rows` x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where
+    /// one is not a number.
+    pub(super) fn distance(&self, rows: impl Iterator<Item = usize>, residuals: &[f64]) -> f64 {
+        rows.map(|c| (c, residuals[c]))
+            .filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
             .map(|(c, r)| r.abs() / self.scale(c))
             .fold(0.0, |most: f64, off| match most.is_nan() || off <= most {
                 true => most,
@@ -97,12 +97,14 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The constraints whose `residuals` would not do even where no step makes them less.
-    pub(super) fn violated(&self, residuals: &[f64]) -> impl Iterator<Item = usize> {
+    /// Those of the constraints `rows` whose `residuals` would not do even where no step makes them less.
+    pub(super) fn violated(
+        &self,
+        rows: impl Iterator<Item = usize>,
+        residuals: &[f64],
+    ) -> impl Iterator<Item = usize> {
         let bound = |c: usize| (STALLED * self.rounding[c]).max(ROUNDING * self.terms[c]);
-        let residuals = residuals.iter().enumerate();
-        let violated = residuals.filter(move |(c, r)| r.is_nan() || r.abs() > bound(*c));
-        violated.map(|(c, _)| c)
+        rows.filter(move |c| residuals[*c].is_nan() || residuals[*c].abs() > bound(*c))
     }
 
     /// Takes off `residuals` what rounding makes of them.
@@ -112,11 +114,11 @@ impl Acceptance<f64> {
         }
     }
 
-    /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
-    /// makes it.
-    pub(super) fn length(&self, rows: usize) -> f64 {
-        let sizes = self.largest[..rows].iter().zip(&self.rounding);
-        let lengths = sizes.filter(|(entry, _)| **entry > 0.0);
-        lengths.fold(0.0, |most: f64, (entry, size)| most.max(size / entry))
+    /// The largest length in the constraints `rows`, in the unit of x: the rounding of a residual as the change of a coordinate that makes
+    /// it.
+    pub(super) fn length(&self, rows: impl Iterator<Item = usize>) -> f64 {
+        rows.filter(|c| self.largest[*c] > 0.0)
+            .map(|c| self.rounding[c] / self.largest[c])
+            .fold(0.0, f64::max)
     }
 }

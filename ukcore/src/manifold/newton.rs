@@ -274,6 +274,6 @@ impl Newton<f64> {
 
     /// The constraints, of which all is known, whose residuals would not do even where no step makes them less.
     pub(super) fn violated(&self, at: &At<'_, f64>) -> impl Iterator<Item = usize> {
-        self.acceptance.violated(&self.residual[..at.rows()])
+        self.acceptance.violated(0..at.rows(), &self.residual)
     }
 }

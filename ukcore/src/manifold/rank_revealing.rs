@@ -174,7 +174,7 @@ impl Manifold {
             if !newton.acceptance.ease.is_empty() {
                 newton.measure(at, x, noise, None);
             }
-            let off = newton.acceptance.distance(&newton.residual[..at.rows()]);
+            let off = newton.acceptance.distance(0..at.rows(), &newton.residual);
             if off < least {
                 least = off;
                 factors.best.copy_from_slice(x);

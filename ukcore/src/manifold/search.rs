@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Manifold;
-use super::acceptance::{Acceptance, ROUNDING};
+use super::acceptance::ROUNDING;
 use super::level::At;
 use super::newton::Newton;
+use super::parts::Part;
 use crate::mechanism::Prepared;
 use crate::scan::Size;
 
@@ -21,11 +22,24 @@ const DAMPING_FACTOR: f64 = 10.0;
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
 
+/// In a part of a mechanism rounding is measured, which takes the whole mechanism, where the search begins, and where the sum of squares
+/// has fallen to this share.
+const CLOSE: f64 = 1e-8;
+
 /// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
 /// rest.
 const NEAR: f64 = 1.5e-8;
 
-/// The best place so far: residuals and A there, each row scaled to unit norm, each column by how readily its coordinate moves.
+/// Where a search has ended.
+pub(crate) struct Reached {
+    /// 0 on the constraints, else the sum of the squares of their scaled residuals where it is least.
+    pub(crate) cost: f64,
+    /// The second step as a share of the first one: what second derivatives make of it.
+    pub(crate) bend: f64,
+}
+
+/// The best place so far: residuals and A there, of the rows and unknowns of a part, each row scaled to unit norm, each column by how
+/// readily its coordinate moves.
 struct Best {
     x: Vec<f64>,
     /// 1/‖row‖, 1 for a row of zeros.
@@ -36,30 +50,31 @@ struct Best {
 
 impl Best {
     /// The place `x`, where residuals and A are known.
-    fn new(newton: &Newton<f64>, rows: usize, x: &[f64], ease: &[f64]) -> Self {
-        let m = newton.residual.len();
-        let mut matrix =
-            DMatrix::from_fn(rows, x.len(), |c, j| newton.jacobian[j * m + c] * ease[j]);
+    fn new(newton: &Newton<f64>, Part { rows, unknowns, .. }: &Part, x: &[f64]) -> Self {
+        let (m, ease) = (newton.residual.len(), &newton.acceptance.ease);
+        let mut matrix = DMatrix::from_fn(rows.len(), unknowns.len(), |c, j| {
+            newton.jacobian[unknowns[j] * m + rows[c]] * ease[unknowns[j]]
+        });
         let norm = |c: usize| match matrix.row(c).norm() {
             norm if norm > 0.0 => norm.recip(),
             _ => 1.0,
         };
-        let scale: Vec<f64> = (0..rows).map(norm).collect();
+        let scale: Vec<f64> = (0..rows.len()).map(norm).collect();
         for (mut row, scale) in matrix.row_iter_mut().zip(&scale) {
             row.scale_mut(*scale);
         }
         Best {
             x: x.to_vec(),
-            residual: DVector::from_fn(rows, |c, _| newton.residual[c] * scale[c]),
+            residual: DVector::from_fn(rows.len(), |c, _| newton.residual[rows[c]] * scale[c]),
             scale,
             matrix,
         }
     }
 
     /// Σ (s_c φ_c)².
-    fn cost(&self, residual: &[f64]) -> f64 {
-        let scaled = residual.iter().zip(&self.scale);
-        scaled.map(|(r, s)| (r * s).powi(2)).sum()
+    fn cost(&self, part: &Part, residual: &[f64]) -> f64 {
+        let scaled = part.rows.iter().zip(&self.scale);
+        scaled.map(|(c, s)| (residual[*c] * s).powi(2)).sum()
     }
 
     /// d that minimises |J d + φ|² + μ|d|²: Jᵀ (J Jᵀ + μ)⁻¹ (−φ). What is below rounding of J Jᵀ does not count in μ.
@@ -72,6 +87,19 @@ impl Best {
     }
 }
 
+impl Newton<f64> {
+    /// Whether the place, of which all is known, is so near to where the rows of `part` are met that projection does the rest.
+    fn is_near(&self, part: &Part) -> bool {
+        let Newton {
+            acceptance,
+            residual,
+            ..
+        } = self;
+        let off = acceptance.distance(part.rows(), residual);
+        off <= NEAR * acceptance.length(part.rows())
+    }
+}
+
 impl Manifold {
     /// One in which coordinates move as readily as `ease` says, and those `held` not at all.
     pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>, held: Vec<usize>) -> Self {
@@ -79,6 +107,11 @@ impl Manifold {
         let acceptance = &mut manifold.newton.acceptance;
         (acceptance.ease, acceptance.held) = (ease, held);
         manifold
+    }
+
+    /// How readily each coordinate moves.
+    pub(crate) fn ease(&self) -> &[f64] {
+        &self.newton.acceptance.ease
     }
 
     /// From here on coordinates move as readily as each other.
@@ -91,26 +124,55 @@ impl Manifold {
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
     /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
-        let Acceptance { ease, held, .. } = &self.newton.acceptance;
-        let (rows, size, mut ease) = (at.rows(), Size::of(guess, ease), ease.clone());
-        held.iter().for_each(|j| ease[*j] = 0.0);
+        let held = &self.newton.acceptance.held;
+        let free = (0..x.len()).filter(|j| !held.contains(j)).collect();
+        let whole = Part::whole(at.rows(), free);
+        let Reached { cost, .. } = self.search_part(at, &whole, guess, x);
+        let ease = &self.newton.acceptance.ease;
+        let met = self.meets(at, x, Size::of(guess, ease));
+        let near = met || cost == 0.0;
+        if near && self.project(at, x).is_ok() || met {
+            return 0.0;
+        }
+        cost
+    }
+
+    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs.
+    pub(crate) fn search_part(
+        &mut self,
+        at: &At<'_, f64>,
+        part: &Part,
+        guess: &[f64],
+        x: &mut [f64],
+    ) -> Reached {
+        let size = Size::of(guess, &self.newton.acceptance.ease);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
+        let (mut near, mut steps, mut begun) = (None, Vec::new(), 0.0_f64);
+        let whole = part.rows.len() == at.rows();
         self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
-            let residual = &newton.residual[..rows];
-            let trial = best.as_ref().map_or(0.0, |best| best.cost(residual));
+            let trial = best
+                .as_ref()
+                .map_or(0.0, |best| best.cost(part, &newton.residual));
             if trial < cost {
                 // At the rounding level costs may fall for ever by tiny amounts.
                 stalls = if trial > 0.99 * cost { stalls + 1 } else { 0 };
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 newton.acceptance.size = size;
                 newton.weigh(at, x);
-                newton.measure(at, x, noise, None);
-                let there = Best::new(newton, rows, x, &ease);
+                let measured = whole || steps.is_empty() || trial <= CLOSE * begun;
+                if measured {
+                    newton.measure(at, x, noise, None);
+                }
+                let there = Best::new(newton, part, x);
                 cost = there.residual.norm_squared();
+                begun = begun.max(cost);
                 best = Some(there);
-                if newton.violated(at).next().is_none() {
+                near = measured.then(|| newton.is_near(part));
+                let violated = newton.acceptance.violated(part.rows(), &newton.residual);
+                if measured && violated.take(1).count() == 0 {
+                    near = Some(true);
                     return (1.0, 0.0);
                 }
             } else {
@@ -124,19 +186,25 @@ impl Manifold {
             let Some(step) = best.step(damping * cost.sqrt().min(1.0)) else {
                 return (0.0, 0.0);
             };
-            let steps = newton.step.iter_mut().zip(x).enumerate();
-            steps.for_each(|(j, (d, x))| *d = best.x[j] + ease[j] * step[j] - x);
+            steps.push(step.norm());
+            let back = newton.step.iter_mut().zip(&best.x).zip(x);
+            back.for_each(|((d, best), x)| *d = best - x);
+            for (j, d) in part.unknowns.iter().zip(step.iter()) {
+                newton.step[*j] += newton.acceptance.ease[*j] * d;
+            }
             (0.0, 1.0)
         });
         if let Some(best) = best {
             x.copy_from_slice(&best.x);
         }
-        let met = self.meets(at, x, size);
-        let (acceptance, residual) = (&self.newton.acceptance, &self.newton.residual);
-        let near = met || acceptance.distance(&residual[..rows]) <= NEAR * acceptance.length(rows);
-        if near && self.project(at, x).is_ok() || met {
-            return 0.0;
+        let near = near.unwrap_or_else(|| {
+            self.meets(at, x, size);
+            self.newton.is_near(part)
+        });
+        let first = steps.first().copied().unwrap_or(0.0);
+        Reached {
+            cost: if near { 0.0 } else { cost },
+            bend: steps.get(1).map_or(0.0, |second| second / first),
         }
-        cost
     }
 }

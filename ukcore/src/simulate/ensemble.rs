@@ -43,11 +43,14 @@ pub struct Ensemble {
     max_steps: usize,
 }
 
-/// The motion of one member: states alone. What is integrated along a motion, a [`Simulation`](crate::Simulation) of its own tells.
+/// The motion of one member.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// The state at the end.
     pub end: State,
+    /// What is integrated along the motion, from its start to its end, in the order of
+    /// [`Mechanism::INTEGRALS`](crate::Mechanism::INTEGRALS).
+    pub integrals: Vec<f64>,
     /// The samples asked for, in the order of integration.
     pub samples: Vec<State>,
     /// What it cost.
@@ -123,6 +126,7 @@ impl Ensemble {
             .map_or_else(|| self.members[index].1.clone(), Sample::to_state);
         Ok(Member {
             end,
+            integrals: run.last().map_or(Vec::new(), |end| end.integrals.to_vec()),
             samples: run.samples().map(Sample::to_state).collect(),
             work: run.work(),
         })

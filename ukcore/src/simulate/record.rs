@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::agenda::Agenda;
-use super::integrals::Integrals;
+use super::integrals::{Along, Integrals};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
@@ -80,14 +80,16 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 
-    /// Takes from a step what is wanted of it, and nothing if that fails.
-    pub(super) fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
+    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of what
+    /// is allowed: if that is above 1, nothing is taken either.
+    pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let taken = self.agenda.taken();
         let trajectory = &self.trajectory;
         let (samples, values) = (trajectory.times.len(), trajectory.states.len());
         let sums = trajectory.integrals.len();
         let (events, ending) = (trajectory.events.len(), trajectory.ending);
-        if let Err(error) = self.record(step) {
+        let recorded = self.record(step);
+        if !matches!(recorded, Ok(error) if error <= 1.0) {
             let trajectory = &mut self.trajectory;
             self.agenda.return_to(taken);
             trajectory.times.truncate(samples);
@@ -95,17 +97,18 @@ impl<'s> Recorder<'s> {
             trajectory.integrals.truncate(sums);
             trajectory.events.truncate(events);
             trajectory.ending = ending;
-            return Err(error);
+            return recorded;
         }
         self.watch.accept();
         if let Some(integrals) = &mut self.integrals {
             integrals.accept();
         }
         self.hand_over();
-        Ok(())
+        recorded
     }
 
-    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
+    /// The same, where a failure leaves behind what was taken before.
+    fn record(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let trajectory = &mut self.trajectory;
         let mut within = Within {
             projector: &mut self.projector,
@@ -150,7 +153,12 @@ impl<'s> Recorder<'s> {
             trajectory.integrals.extend_from_slice(sums);
         }
         within.consistent(t_stop, between)?;
-        let integrals = sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
+        sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
+        let reached = self.integrals.as_ref().map(Integrals::reached);
+        let (integrals, error) = reached.unwrap_or_default();
+        if error > 1.0 {
+            return Ok(error);
+        }
         let end = Sample {
             integrals,
             ..Sample::of(t_stop, between)
@@ -162,7 +170,7 @@ impl<'s> Recorder<'s> {
             segments.push(interpolant.segment());
         }
         trajectory.reach(end);
-        Ok(())
+        Ok(error)
     }
 
     /// Gives samples and events to the sink, if there is one, in the order in which the run passes them.
@@ -221,10 +229,19 @@ fn sums<'a>(
     at: &mut f64,
     t: f64,
 ) -> Result<&'a [f64], Error> {
-    match integrals {
-        Some(integrals) => integrals.go(within, std::mem::replace(at, t), t),
-        None => Ok(&[]),
-    }
+    let Some(integrals) = integrals else {
+        return Ok(&[]);
+    };
+    let Step {
+        old, new, error, ..
+    } = *within.step;
+    let mut along = Along {
+        states: within,
+        from: old.t,
+        to: new.t,
+        error,
+    };
+    integrals.go(&mut along, std::mem::replace(at, t), t)
 }
 
 /// Projects a state, positions first, and counts it.

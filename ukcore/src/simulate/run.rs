@@ -206,28 +206,31 @@ impl Problem for Run<'_> {
         self.recorder.projector.hold(k, branch);
     }
 
-    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
+    fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {
         if let Some(energy) = &mut self.energy {
             let Sample { t, q, v, .. } = step.new;
             energy.check(self.solver.mechanism().energy(t, q, v))?;
         }
         obstacles::check_branch(&mut self.solver, self.weakest, step)?;
-        self.recorder.step(step)?;
+        let error = self.recorder.step(step)?;
+        if error > 1.0 {
+            return Ok((Next::Continue, error));
+        }
         self.rows.accept(step.new.t);
         let Some(end) = self.recorder.trajectory.last() else {
-            return Ok(Next::Continue);
+            return Ok((Next::Continue, error));
         };
         let go_on = match &mut self.progress {
             Some(progress) => progress(end),
             None => ControlFlow::Continue(()),
         };
         if self.recorder.trajectory.ending == Ending::Event {
-            return Ok(Next::Stop);
+            return Ok((Next::Stop, error));
         }
         if (go_on.is_break() || self.recorder.has_ended()) && end.t != self.t_end {
             self.recorder.trajectory.ending = Ending::Interrupted;
-            return Ok(Next::Stop);
+            return Ok((Next::Stop, error));
         }
-        Ok(Next::Continue)
+        Ok((Next::Continue, error))
     }
 }

@@ -1,6 +1,7 @@
 //! From the start that is given to one on the constraints.
 
 use super::agenda::Agenda;
+use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
 use super::{START_BOUND, Simulation, angles};
 use crate::assemble::State;
@@ -38,17 +39,19 @@ impl Simulation {
         };
         trajectory.start = start.t;
         trajectory.end = Some(start.clone());
+        let integrals = Integrals::new(&self.mechanism, tolerance, t_end - start.t);
         let settings = Settings {
             tolerance,
             first_step: self.first_step,
             max_step: self.max_step,
             max_steps: self.max_steps,
-            dense: self.dense || !self.events.is_empty(),
+            dense: self.dense || !self.events.is_empty() || integrals.is_some(),
             switches: self.mechanism.spec().switches,
         };
         let agenda = Agenda::new(self.sampling.clone(), start.t, t_end);
         let events = std::mem::take(&mut self.events);
-        let recorder = Recorder::new(trajectory, projector, agenda, events, sink);
+        let mut recorder = Recorder::new(trajectory, projector, agenda, events, sink);
+        recorder.integrals = integrals;
         Ok((recorder, start, settings))
     }
 

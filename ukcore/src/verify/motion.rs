@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{INDEPENDENT, complement, decompose, measure, units};
-use crate::nearby::Random;
+use crate::random::Random;
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{Solution, Solver, SolverOptions};

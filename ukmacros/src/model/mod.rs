@@ -8,6 +8,9 @@ mod tree;
 mod types;
 mod unused;
 
+/// The functions whose arguments are constraints.
+pub(crate) const LOADS: [&str; 2] = ["reaction", "moment"];
+
 pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
 pub(crate) use scope::{Reported, Scope, arity};

@@ -1,5 +1,6 @@
 //! Names and places of a part's declaration, as they become those of the whole.
 
+use super::LOADS;
 use super::types::Variable;
 use crate::parse::{Block, Expr, ExprKind, Function, Key, Let, Range, Section};
 use proc_macro2::{Ident, Span};
@@ -61,7 +62,7 @@ pub(super) fn uses(e: &Expr, names: &HashSet<String>) -> bool {
 /// Names of a part that become those of the whole, at the place where the part is declared.
 pub(super) struct Renaming {
     names: HashMap<String, String>,
-    /// Those of constraints, which `reaction` alone uses.
+    /// Those of constraints, which [`LOADS`] alone use.
     constraints: HashMap<String, String>,
     /// Names of parts.
     parts: HashSet<String>,
@@ -187,7 +188,7 @@ impl Renaming {
                     self.name(name);
                     self.hidden = hidden;
                 }
-                if name == "reaction" {
+                if LOADS.iter().any(|load| name == load) {
                     args.iter_mut().for_each(|arg| self.constraint(arg));
                 }
                 self.exprs(args);

@@ -424,6 +424,9 @@ cases! {
     reaction_of_a_family: "coords { x[2] } mass { x: 1 } holonomic { for i in 0..2 { rod[i]: sin(x[i]) = t } } output { a = reaction(«rod») }" => "no constraint is called `rod`; it is a family; choose a member, such as `rod[0]`";
     reaction_out_of_range: "coords { x[2] } mass { x: 1 } holonomic { for i in 0..2 { rod[i]: sin(x[i]) = t } } output { a = reaction(«rod[2]») }" => "no constraint is called `rod[2]`";
     reaction_with_too_many_arguments: "coords { x } mass { x: 1 } holonomic { rod: sin(x) = t } output { a = «reaction»(rod, 1) }" => "`reaction` takes 1 argument, found 2";
+    moment_of_an_equation: "coords { x } mass { x: 1 } holonomic { rod: sin(x) = t } output { a = moment(«rod») }" => "`rod` is no joint between bodies; its multipliers are `reaction(rod)`";
+    moment_in_a_force: "coords { x } mass { x: 1 } force { x: «moment»(rod) } holonomic { rod: sin(x) = t }" => "`moment` stands under `output`";
+    moment_of_bodies_that_hang: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } tree { p: pin(ground.at([0, 0]), a.at([1, 0])) q: pin(a.at([0, 1]), b.at([0, 0])) } holonomic { r: pin(ground.at([1, 1]), b.at([1, 1])) } output { a = moment(«r») }" => "have no coordinates of their own orientation";
     reaction_of_an_unknown_row: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { p: pin(ground.at([0, 0]), a.at([1, 0])) } output { a1 = reaction(p.«z») }" => "no row of `p` is called `z`";
     reaction_of_a_row_without_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { p: rod(ground.at([0, 0]), a.at([1, 0]), 1) } output { a1 = reaction(p.«x») }" => "the rows of `p` have no names of their own; write `reaction(p)`";
     reaction_in_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { rod: sin(x) = t, next: y = «reaction»(rod) }" => "reactions follow from all other equations: `reaction` stands under";

@@ -44,6 +44,7 @@ const PIECES: [&str; 123] = [
     "output",
     "integral",
     "reaction(c)",
+    "moment(c)",
     "friction(dot(x), 1.0)",
     "for i in 0..N",
     "for",
@@ -150,7 +151,7 @@ const BODIES: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], l 
     holonomic { o: pin(ground.at([0, 0]), link[0].at([0, 0])); for i in 0..N - 1 { knee[i]: pin(link[i].at([l, 0]), link[i + 1].at([0, 0])) } \
     foot: hinge(ground.at([0, 0, 0]), top.at([0, l, 0]), [0, 1, 0]) motor: turn(ground, link[0]) = sin(t) } forces { spring(link[1].at([l, 0]), \
     ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } nonideal { link[0].angle: friction(link[0].omega, norm(reaction(o)) + abs(reaction(motor))) } \
-    output { tip = dot(link[1].at([l, 0])), s = top.spin, f = reaction(knee[0]), d = reaction(foot.tilt0) } integral { w = reaction(motor) * t } }";
+    output { tip = dot(link[1].at([l, 0])), s = top.spin, f = reaction(knee[0]), d = reaction(foot.tilt0), m = moment(foot) } integral { w = reaction(motor) * t } }";
 
 /// One of a tree, to be damaged.
 const TREE: &str = "pub T { const N: usize = 2; params { l = 0.5, g = 9.81 } bodies { planar link[N] { mass: 1, inertia: 0.1, centre: [l / 2, 0] } \

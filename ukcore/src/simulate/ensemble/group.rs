@@ -258,7 +258,7 @@ impl<'a> Group<'a> {
         let end = members.each(|r| r.trial.end.s);
         let Ok(_) = stepper.close(members, end, step);
         self.watch();
-        self.record(start, step);
+        self.record(start, step, errors);
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let alive = members.alive.clone();
         for (k, running) in members.running(&judged) {
@@ -337,8 +337,9 @@ impl<'a> Group<'a> {
         members.alive = alive;
     }
 
-    /// Takes the samples within the closed steps. Lanes where one fails take no further part.
-    fn record(&mut self, start: Wide, step: Wide) {
+    /// Takes the samples within the closed steps, whose errors are `errors`, and what is integrated along them. Lanes where one fails take
+    /// no further part.
+    fn record(&mut self, start: Wide, step: Wide, errors: Wide) {
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let alive = members.alive.clone();
         let mut wanted = vec![false; Wide::WIDTH];
@@ -353,7 +354,8 @@ impl<'a> Group<'a> {
         let mut done = std::mem::replace(&mut members.alive, alive);
         for (k, running) in members.running(&done.clone()) {
             let states = stepper.states().map(|y| lane(y, k));
-            done[k] = running.record(states, &lane(stepper.dense(), k));
+            let error = (lane(stepper.estimate(), k), errors.lane(k));
+            done[k] = running.record(states, &lane(stepper.dense(), k), error);
         }
         for (k, alive) in members.alive.iter_mut().enumerate() {
             *alive &= done[k] || !wanted[k];

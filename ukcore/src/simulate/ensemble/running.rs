@@ -4,7 +4,7 @@ use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{
-    Course, Method, PROJECTION_LIMIT, Settings, StepSize, Trial, projection_norm,
+    Course, Method, PROJECTION_LIMIT, Settings, StepSize, Trial, projection_norm, sized,
 };
 use crate::simulate::record::Recorder;
 use crate::simulate::vanishing::RowWatch;
@@ -94,15 +94,24 @@ impl Running {
 
     /// Whether a sample lies within the step in hand.
     pub(super) fn wants_interpolant(&self) -> bool {
-        self.course.covers(self.trial, self.recorder.next_sample())
+        let next = self.recorder.next_sample();
+        self.settings.dense || self.course.covers(self.trial, next)
     }
 
-    /// Takes the samples of the step in hand, from states at its ends and the coefficients of its interpolant; none of them, with `false`,
-    /// if one fails.
-    pub(super) fn record(&mut self, [old, new]: [Vec<f64>; 2], coefficients: &[f64]) -> bool {
-        let step = (self.course).show(self.trial, [&old, &new], Some(coefficients));
+    /// Takes the samples of the step in hand, and what is integrated along it, from states at its ends, the coefficients of its interpolant,
+    /// and its error with the size that this has; none of them, with `false`, if one fails or an integral is not exact enough.
+    pub(super) fn record(
+        &mut self,
+        [old, new]: [Vec<f64>; 2],
+        coefficients: &[f64],
+        (mut error, norm): (Vec<f64>, f64),
+    ) -> bool {
+        sized(&mut error, [&old, &new], self.settings.tolerance, norm);
+        let mut step = (self.course).show(self.trial, [&old, &new], Some(coefficients));
+        step.error = Some(&error);
         let recorded = self.recorder.step(&step);
-        recorded.map_err(|error| self.note(step.new, error)).is_ok()
+        let recorded = recorded.map_err(|error| self.note(step.new, error));
+        recorded.is_ok_and(|error| error <= 1.0)
     }
 
     /// Why the member ends with `error` at the state `y`, where it stands.
@@ -115,7 +124,11 @@ impl Running {
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.
     pub(super) fn finish(mut self, y: &[f64], lane: SolverWork) -> Member {
-        let end = Sample::of(self.course.now.t, y);
+        let integrals = self.recorder.trajectory.end_integrals.clone();
+        let end = Sample {
+            integrals: &integrals,
+            ..Sample::of(self.course.now.t, y)
+        };
         self.recorder.trajectory.reach(end);
         let trajectory = self.recorder.finish();
         let mut work = trajectory.work;
@@ -125,6 +138,7 @@ impl Running {
         work.fallbacks = lane.fallbacks;
         Member {
             end: end.to_state(),
+            integrals: integrals.clone(),
             samples: trajectory.samples().map(Sample::to_state).collect(),
             work,
         }

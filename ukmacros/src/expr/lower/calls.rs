@@ -18,7 +18,7 @@ const MAX_POWER: i32 = 64;
 /// The functions of the language that expressions use.
 fn vocabulary() -> impl Iterator<Item = &'static str> {
     let table = Func::all().map(|f| f.row().name);
-    let table = table.chain(["powi", "recip", "dot", "sum", "reaction"]);
+    let table = table.chain(["powi", "recip", "dot", "sum", "reaction", "moment"]);
     table.chain(OPERATIONS.iter().map(|o| o.name))
 }
 
@@ -38,7 +38,7 @@ impl<'m> Lowering<'m> {
         }
         match text.as_str() {
             "dot" => return self.dot(e, name, args, env),
-            "reaction" => return self.reaction(e, name, args, env),
+            "reaction" | "moment" => return self.reaction(e, name, args, env),
             "at" | "along" => return self.of_body(e, name, args, env),
             "ddot" => {
                 let message = "accelerations are what is solved for; no section may use them";

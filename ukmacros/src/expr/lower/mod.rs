@@ -28,7 +28,7 @@ pub(crate) use vectors::vocabulary;
 
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
-use crate::model::{Model, Scope, every, uses};
+use crate::model::{LOADS, Model, Scope, every, uses};
 use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, Key, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
@@ -36,7 +36,7 @@ use drawing::Between;
 use inertia::OfBodies;
 use parts::{Acting, PARTS};
 use proc_macro2::Ident;
-use reactions::Known;
+use reactions::{Known, Load};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 use ukunits::Dimension;
@@ -255,7 +255,7 @@ impl<'m> Lowering<'m> {
             force.insert(i, self.total_of(&values));
         }
         // Behind the constraints if it may use their reactions.
-        let late = uses(decl, "reaction");
+        let late = LOADS.iter().any(|name| uses(decl, name));
         let forces = |lowering: &mut Self| {
             let section = decl.nonideal.as_ref();
             section.map(|s| lowering.entries(&s.blocks, &top, Place::Nonideal))
@@ -528,13 +528,13 @@ impl<'m> Lowering<'m> {
             Kind::Nonholonomic => Place::Nonholonomic,
         };
         let env = Env::new(scope, place);
-        let (mut terms, mut rows, mut force) = (Vec::new(), Vec::new(), None);
+        let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), Load::default());
         match &equation.lhs.kind {
             ExprKind::Call(..) => {
                 let value = self.argument(&equation.lhs, &env);
                 if let Value::Joint(joint) = &value {
                     rows.clone_from(&joint.names);
-                    force.clone_from(&joint.force);
+                    load.clone_from(&joint.load);
                 }
                 let value = self.numbers(value, equation.lhs.loc);
                 self.term(&equation.lhs, value, 1.0, &mut terms);
@@ -569,7 +569,7 @@ impl<'m> Lowering<'m> {
             });
             self.measure_row(phi, kind);
         }
-        self.know(whole, first, total.shape(), rows, force);
+        self.know(whole, first, total.shape(), rows, load);
     }
 
     /// Whether `e` applies a joint, or a function of the declaration, which may be one.

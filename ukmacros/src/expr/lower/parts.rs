@@ -3,7 +3,8 @@
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
 use super::array::{Value, describe};
-use super::reactions::Pushed;
+use super::bodies::Frame;
+use super::reactions::{Load, Pushed, Turned};
 use super::units::Measured;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
@@ -172,8 +173,7 @@ pub(super) struct Joint {
     pub(super) rows: Value,
     /// As many as there are rows; none where the only row goes by the name of the joint.
     pub(super) names: Vec<&'static str>,
-    /// Of a joint between points.
-    pub(super) force: Option<Pushed>,
+    pub(super) load: Load,
 }
 
 /// How all that acts is written.
@@ -208,19 +208,32 @@ impl<'m> Lowering<'m> {
         }
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
-        let frame = |name: &str| {
-            let mut given = inner.args.iter();
-            given.find_map(|(n, value)| match value {
-                Value::Point(point) if n == name => Some(point.body.clone()),
-                _ => None,
-            })
+        let load = self.load(&inner);
+        Value::Joint(Rc::new(Joint { rows, names, load }))
+    }
+
+    /// How the load of a joint with these arguments is read.
+    fn load(&self, inner: &Env<'m>) -> Load {
+        let given = |name: &str| inner.args.iter().find(|(n, _)| n == name);
+        let frame = |name: &str| match &given(name)?.1 {
+            Value::Point(point) => Some(point.body.clone()),
+            Value::Body(body) => Some(body.clone()),
+            _ => None,
         };
-        let second = frame("q");
-        let force = second.and_then(|second| {
-            let first = frame("p");
-            Pushed::between(first.as_deref(), &second, &self.graph)
-        });
-        Value::Joint(Rc::new(Joint { rows, names, force }))
+        let g = &self.graph;
+        if let Some((_, Value::Point(q))) = given("q") {
+            let (first, about) = (frame("p"), q.place.entries().to_vec());
+            return Load {
+                force: Pushed::between(first.as_deref(), &q.body, g),
+                moment: Turned::between(first.as_deref(), &q.body, about, g),
+            };
+        }
+        let (first, second) = (frame("a"), frame("b"));
+        let turned = |second: Rc<Frame>| Turned::between(first.as_deref(), &second, Vec::new(), g);
+        Load {
+            force: None,
+            moment: second.and_then(turned),
+        }
     }
 
     /// Enters what an entry of `forces` means.

@@ -1,8 +1,9 @@
-//! `reaction(knee)`: the force of a constraint, by what the constraint is and what it acts on.
+//! `reaction(knee)` and `moment(knee)`: the force and the moment of a constraint, by what the constraint is and what it acts on.
 
 use super::array::Value;
-use super::bodies::Frame;
+use super::bodies::{Frame, Orientation};
 use super::system::{Constraint, Kind};
+use super::vectors::cross;
 use super::{Env, Lowering, NoValue, Place};
 use crate::diag::suggest;
 use crate::expr::diff::Gradient;
@@ -19,7 +20,28 @@ pub(super) struct Known {
     shape: Vec<usize>,
     /// What a joint of several rows calls them.
     names: Vec<&'static str>,
-    force: Option<Pushed>,
+    load: Load,
+}
+
+/// Where the load of a joint on its second body is read.
+#[derive(Clone, Default)]
+pub(super) struct Load {
+    /// Of a joint between points.
+    pub(super) force: Option<Pushed>,
+    /// Of any joint.
+    pub(super) moment: Option<Turned>,
+}
+
+/// Where the moment of a joint on its second body is read.
+#[derive(Clone)]
+pub(super) struct Turned {
+    /// As of [`Pushed`].
+    centre: Vec<usize>,
+    sign: f64,
+    /// The angle of the body, or its quaternion, by position; none of a body whose orientation follows from other coordinates.
+    orientation: Vec<usize>,
+    /// The point about which the moment is taken, in axes of the ground; none where there is no force.
+    about: Vec<Id>,
 }
 
 /// Where the force of a joint on its second body is read.
@@ -35,21 +57,45 @@ impl Pushed {
     /// Of a joint between points of `first` and `second`, unless both are of the ground.
     pub(super) fn between(first: Option<&Frame>, second: &Frame, g: &Graph) -> Option<Self> {
         let of = |frame: &Frame, sign: f64| {
-            let place = frame
-                .moving
-                .as_ref()?
-                .place
-                .iter()
-                .map(|id| match g.node(*id) {
-                    Node::Symbol(Symbol::Coord(i)) => Some(*i),
-                    _ => None,
-                });
-            let centre = place.collect::<Option<Vec<usize>>>();
-            let centre = centre.unwrap_or_default();
+            let centre = coordinates(&frame.moving.as_ref()?.place, g);
             Some(Pushed { centre, sign })
         };
         of(second, 1.0).or_else(|| of(first?, -1.0))
     }
+}
+
+impl Turned {
+    /// The same of the moment about the point that is at `about`, or of a pure moment.
+    pub(super) fn between(
+        first: Option<&Frame>,
+        second: &Frame,
+        about: Vec<Id>,
+        g: &Graph,
+    ) -> Option<Self> {
+        let Pushed { centre, sign } = Pushed::between(first, second, g)?;
+        let turned = if sign > 0.0 { Some(second) } else { first };
+        let orientation = match &turned?.moving.as_ref()?.orientation {
+            Orientation::Own(own) => coordinates(own, g),
+            Orientation::Hung(_) => Vec::new(),
+        };
+        Some(Turned {
+            centre,
+            sign,
+            orientation,
+            about,
+        })
+    }
+}
+
+/// The coordinates that these are, by position; none if one is something else.
+fn coordinates(ids: &[Id], g: &Graph) -> Vec<usize> {
+    let positions = ids.iter().map(|id| match g.node(*id) {
+        Node::Symbol(Symbol::Coord(i)) => Some(*i),
+        _ => None,
+    });
+    positions
+        .collect::<Option<Vec<usize>>>()
+        .unwrap_or_default()
 }
 
 impl<'m> Lowering<'m> {
@@ -60,18 +106,18 @@ impl<'m> Lowering<'m> {
         first: usize,
         shape: &[usize],
         names: Vec<&'static str>,
-        force: Option<Pushed>,
+        load: Load,
     ) {
         let known = Known {
             rows: first..self.constraints.len(),
             shape: shape.to_vec(),
             names,
-            force,
+            load,
         };
         self.known.insert(name, known);
     }
 
-    /// `reaction(knee)`, `reaction(link[2])`, `reaction(knee.x)`.
+    /// `reaction(knee)`, `reaction(link[2])`, `reaction(knee.x)`, and `moment` of the same.
     pub(super) fn reaction(
         &mut self,
         e: &Expr,
@@ -84,7 +130,9 @@ impl<'m> Lowering<'m> {
         };
         let open = [Place::Output, Place::Integral, Place::Nonideal].contains(&env.place);
         if !self.constrained || !(open || self.applying()) {
-            let message = "reactions follow from all other equations: `reaction` stands under `output`, `integral` and `nonideal`, and in functions used there";
+            let message = format!(
+                "reactions follow from all other equations: `{name}` stands under `output`, `integral` and `nonideal`, and in functions used there"
+            );
             return self.error_once(name, message);
         }
         if matches!(arg.kind, ExprKind::Error) {
@@ -101,17 +149,23 @@ impl<'m> Lowering<'m> {
         };
         let (Some(text), Some(constraint)) = (text, root(arg)) else {
             return match self.diag.len() == before {
-                true => self.no_constraint(arg),
+                true => self.no_constraint(name, arg),
                 false => Value::Error,
             };
         };
         if !self.known.contains_key(&text) {
-            return self.unknown_constraint(arg, constraint, &text);
+            return self.unknown_constraint(name, arg, constraint, &text);
         }
         self.reaction_used.get_or_insert(e.loc);
+        let row = match row.map(|row| self.of_row(name, &text, row)) {
+            Some(None) => return Value::Error,
+            Some(row) => row,
+            None => None,
+        };
         match row {
+            row if name == "moment" => self.moment(&text, row, arg),
             None => self.whole(&text, arg),
-            Some(row) => self.of_row(&text, row),
+            Some(row) => Value::Scalar(self.graph.symbol(Symbol::Multiplier(row))),
         }
     }
 
@@ -130,12 +184,20 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    fn no_constraint(&mut self, arg: &Expr) -> Value {
-        let message = "`reaction` takes the name of a constraint, such as `reaction(knee)`, or of a row of a joint, such as `reaction(knee.x)`";
+    fn no_constraint(&mut self, name: &Ident, arg: &Expr) -> Value {
+        let message = format!(
+            "`{name}` takes the name of a constraint, such as `{name}(knee)`, or of a row of a joint, such as `{name}(knee.x)`"
+        );
         self.error(arg.loc, message)
     }
 
-    fn unknown_constraint(&mut self, arg: &Expr, constraint: &Ident, text: &str) -> Value {
+    fn unknown_constraint(
+        &mut self,
+        name: &Ident,
+        arg: &Expr,
+        constraint: &Ident,
+        text: &str,
+    ) -> Value {
         let base = constraint.to_string();
         if self.results.get(&base) == Some(&NoValue::Constraint) {
             // Else it is left out because of an error.
@@ -144,7 +206,7 @@ impl<'m> Lowering<'m> {
                 let members = members.filter(|k| k.starts_with(&format!("{base}[")));
                 let remedy = match members.min() {
                     Some(member) => format!("it is a family; choose a member, such as `{member}`"),
-                    None => format!("write `reaction({base})`"),
+                    None => format!("write `{name}({base})`"),
                 };
                 return self.error(
                     arg.loc,
@@ -178,7 +240,7 @@ impl<'m> Lowering<'m> {
             rows,
             shape,
             names,
-            force,
+            load,
         }) = self.known.get(text)
         else {
             return Value::Error;
@@ -187,7 +249,7 @@ impl<'m> Lowering<'m> {
         // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
-        let Some(Pushed { centre, sign }) = force.clone() else {
+        let Some(Pushed { centre, sign }) = load.force.clone() else {
             let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
@@ -204,31 +266,74 @@ impl<'m> Lowering<'m> {
             );
             return self.error(arg.loc, message);
         }
-        let components = centre.into_iter().map(|i| {
+        Value::vector(self.generalised(&centre, sign, &rows))
+    }
+
+    /// The generalised forces of these rows along `coordinates`, times `sign`.
+    fn generalised(&mut self, coordinates: &[usize], sign: f64, rows: &Range<usize>) -> Vec<Id> {
+        let along = coordinates.iter().map(|i| {
             let terms = rows.clone().map(|row| {
-                let slope = slope(&self.constraints[row], i, &mut self.graph);
+                let slope = slope(&self.constraints[row], *i, &mut self.graph);
                 let multiplier = self.graph.symbol(Symbol::Multiplier(row));
                 (sign, self.graph.mul(slope, multiplier))
             });
             let terms: Vec<(f64, Id)> = terms.collect();
             self.graph.sum(&terms)
         });
-        let components: Vec<Id> = components.collect();
-        Value::vector(components)
+        along.collect()
     }
 
-    /// The multiplier of a row of a joint.
-    fn of_row(&mut self, text: &str, row: &Ident) -> Value {
-        let Some(Known { rows, names, .. }) = self.known.get(text) else {
+    /// The moment of a joint, or of a row of it, on its second body, about its point of that body: in the plane a number.
+    fn moment(&mut self, text: &str, row: Option<usize>, arg: &Expr) -> Value {
+        let Some(Known { rows, load, .. }) = self.known.get(text) else {
             return Value::Error;
         };
+        let rows = row.map_or_else(|| rows.clone(), |row| row..row + 1);
+        let Some(turned) = load.moment.clone() else {
+            let message = format!(
+                "`{text}` is no joint between bodies; its multipliers are `reaction({text})`"
+            );
+            return self.error(arg.loc, message);
+        };
+        if turned.orientation.is_empty() {
+            let message = format!(
+                "the bodies of `{text}` have no coordinates of their own orientation; take the multipliers of its rows by `reaction`"
+            );
+            return self.error(arg.loc, message);
+        }
+        let Turned { centre, sign, .. } = turned;
+        let generalised = self.generalised(&turned.orientation, sign, &rows);
+        let force = self.generalised(&centre, -sign, &rows);
+        let g = &mut self.graph;
+        let mut components = match generalised[..] {
+            [moment] => vec![moment],
+            _ => of_quaternion(&turned.orientation, &generalised, g),
+        };
+        // About the point in place of the centre of mass.
+        if !turned.about.is_empty() {
+            let centre = centre.iter().map(|i| g.symbol(Symbol::Coord(*i)));
+            let centre: Vec<Id> = centre.collect();
+            let arm = turned.about.iter().zip(centre);
+            let arm = Value::vector(arm.map(|(at, centre)| g.sub(*at, centre)).collect());
+            let moved = cross(g, &arm, &Value::vector(force)).unwrap_or(Value::Error);
+            let pairs = components.iter_mut().zip(moved.entries());
+            pairs.for_each(|(moment, moved)| *moment = g.sum(&[(1.0, *moment), (1.0, *moved)]));
+        }
+        match components[..] {
+            [moment] => Value::Scalar(moment),
+            _ => Value::vector(components),
+        }
+    }
+
+    /// A row of a joint; reports it if there is none of this name.
+    fn of_row(&mut self, name: &Ident, text: &str, row: &Ident) -> Option<usize> {
+        let Known { rows, names, .. } = self.known.get(text)?;
         if let Some(k) = names.iter().position(|name| row == name) {
-            let multiplier = Symbol::Multiplier(rows.start + k);
-            return Value::Scalar(self.graph.symbol(multiplier));
+            return Some(rows.start + k);
         }
         let message = match names.len() {
             0 => {
-                format!("the rows of `{text}` have no names of their own; write `reaction({text})`")
+                format!("the rows of `{text}` have no names of their own; write `{name}({text})`")
             }
             _ => {
                 let list = format!("they are `{}`", names.join("`, `"));
@@ -236,8 +341,21 @@ impl<'m> Lowering<'m> {
                 format!("no row of `{text}` is called `{row}`{end}")
             }
         };
-        self.error(row.span(), message)
+        self.error(row.span(), message);
+        None
     }
+}
+
+/// The moment in axes of the ground of generalised forces Q along a quaternion e: as ė = ½ ω e, it is ½ (e₀ Q − Q₀ e + e × Q).
+fn of_quaternion(e: &[usize], force: &[Id], g: &mut Graph) -> Vec<Id> {
+    let e: Vec<Id> = e.iter().map(|i| g.symbol(Symbol::Coord(*i))).collect();
+    let component = |k: usize| {
+        let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
+        let terms = [(0.5, 0, k), (-0.5, k, 0), (0.5, i, j), (-0.5, j, i)];
+        let terms = terms.map(|(c, a, b)| (c, g.mul(e[a], force[b])));
+        g.sum(&terms)
+    };
+    (1..4).map(component).collect()
 }
 
 /// The name that a path begins with.
