@@ -218,7 +218,7 @@ fn a_crank_takes_the_torque_of_its_slider() {
 }
 
 fn efforts_of(mechanism: &impl Mechanism, posture: &Posture, on: &[&str]) -> Vec<ukcore::Effort> {
-    inverse_forces(&mechanism.prepared(), posture, on).unwrap()
+    inverse_forces(mechanism.prepared(), posture, on).unwrap()
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn swept(
     intervals: usize,
 ) -> Kinematics {
     kinematics(
-        &mechanism.prepared(),
+        mechanism.prepared(),
         start,
         &[(name, range)],
         &[],
@@ -110,8 +110,10 @@ fn swept(
 #[test]
 fn a_slider_crank_by_its_crank() {
     for (l, start) in [(0.3, 1.0), (0.1, 1.0), (0.1, -2.5)] {
-        let mut press = Press::default();
-        press.l = l;
+        let press = Press {
+            l,
+            ..Press::default()
+        };
         let r = press.r;
         let start = match l > r {
             true => press.start("turned", &[("angle", start)].into()).unwrap(),
@@ -220,8 +222,10 @@ fn four_bars_turn_or_swing() {
         2 * (180.0 * limit / PI).floor() as usize + 1
     );
 
-    let mut turns = Linkage::default();
-    turns.l = [0.5, 2.0, 1.5];
+    let turns = Linkage {
+        l: [0.5, 2.0, 1.5],
+        ..Linkage::default()
+    };
     let start = turns
         .start(
             "open",
@@ -466,7 +470,7 @@ fn what_does_not_decide_a_motion_is_refused() {
         }
     }
     let start = State::guess::<Cam>(&[("a", 1.0), ("x", 0.8)]).unwrap();
-    let corner = kinematics(&Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
+    let corner = kinematics(Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
     refused(
         corner,
         "`drives` do not go on smoothly from here: positions have a corner",

@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
 use crate::modes::{mass_matrix, units};
-use crate::nearby::{Random, nearby};
+use crate::nearby::nearby;
+use crate::random::Random;
 
 /// How fast s changes along the curve, below which a drive stands still.
 pub(super) const STILL: f64 = 1e-6;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 123] = [
+const PIECES: [&str; 124] = [
     "pub",
     "T",
     "{",
