@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use ukcore::model::Entry;
@@ -36,7 +36,7 @@ pub struct KinematicsArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub effort: Vec<String>,
     /// Write the positions as CSV, with velocities, outputs, accelerations `ddot(NAME)` and efforts; `-` is standard output
-    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    #[arg(long, value_name = "FILE", value_parser = command::path_or_stdout)]
     pub csv: Option<PathBuf>,
     /// Draw curves as SVG: each is a NAME of the table over the first drive, or `X,Y`, which is Y over X
     #[arg(long, num_args = 2.., value_names = ["FILE", "CURVE"])]
@@ -61,16 +61,10 @@ const MOST: f64 = 1e6;
 /// Reads `NAME=FROM..TO` or `NAME=FROM..TO:STEP`.
 fn drive(text: &str) -> Result<Drive, String> {
     let (name, values) = units::split(text, "FROM..TO")?;
-    let (range, step) = match values.split_once(':') {
-        Some((range, step)) => (range, Some(Quantity::parse(step)?)),
-        None => (values, None),
-    };
-    let (from, to) = range
-        .split_once("..")
-        .ok_or_else(|| format!("a range is needed: `{name}=FROM..TO`"))?;
+    let (ends, step) = units::range(name, values)?;
     Ok(Drive {
         name: name.to_owned(),
-        ends: [Quantity::parse(from)?, Quantity::parse(to)?],
+        ends,
         step,
     })
 }
@@ -81,6 +75,10 @@ fn drive(text: &str) -> Result<Drive, String> {
 /// [`Failure::Usage`] for what is wrong with the command line, and where drives and held coordinates do not decide the motion;
 /// [`Failure::Failed`] where positions do not go on or a file cannot be written.
 pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure> {
+    let to_stdout = args.csv.as_deref().is_some_and(output::is_stdout);
+    let plot = args.plot.as_ref().and_then(|asked| asked.first());
+    let file = args.csv.as_deref().filter(|_| !to_stdout);
+    output::apart(&[("--csv", file), ("--plot", plot.map(Path::new))])?;
     let ready = args.scene.ready(models)?;
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
@@ -115,10 +113,6 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         },
         swept: found,
     };
-    let to_stdout = args
-        .csv
-        .as_deref()
-        .is_some_and(|path| path.as_os_str() == "-");
     match args.csv.as_deref() {
         None => {}
         Some(_) if to_stdout => output::to_stdout(|out| table(out, &ready, &found))?,

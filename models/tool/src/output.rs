@@ -87,6 +87,11 @@ impl WholeFile {
     }
 }
 
+/// Whether `path` stands for standard output.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// Refuses options that name the same file: each would take the place of what the other has written.
 ///
 /// # Errors

@@ -53,7 +53,7 @@ pub struct RunArgs {
 /// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] if the integration ends early or a file cannot be
 /// written, [`Failure::Interrupted`] if the user ends it. Samples and summary up to there are written all the same.
 pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
-    let to_stdout = args.csv.as_deref().is_some_and(is_stdout);
+    let to_stdout = args.csv.as_deref().is_some_and(output::is_stdout);
     if args.json && to_stdout {
         return Err(Failure::Usage(
             "`--json` and `--csv -` both want standard output; give a file to one of them"
@@ -179,12 +179,8 @@ fn integrate(
         ControlFlow::Continue(())
     })?;
     if let Some(error) = broken {
-        let path = args.csv.as_deref().filter(|path| !is_stdout(path));
+        let path = args.csv.as_deref().filter(|path| !output::is_stdout(path));
         return Err(output::failure(path, &error));
     }
     Ok((trajectory, error, samples))
-}
-
-fn is_stdout(path: &Path) -> bool {
-    path.as_os_str() == "-"
 }

@@ -168,20 +168,16 @@ impl Values {
 /// Reads `NAME=VALUES`.
 fn assignment(text: &str) -> Result<(String, Values), String> {
     let (name, values) = units::split(text, "VALUES")?;
-    let Some((first, rest)) = values.split_once("..") else {
+    if !values.contains("..") {
         let list: Result<Vec<_>, _> = values.split(',').map(Quantity::parse).collect();
         let list = list?;
         Quantity::alike(&list, text)?;
         return Ok((name.to_owned(), Values::List(list)));
-    };
-    let (last, step) = rest
-        .split_once(':')
-        .ok_or_else(|| format!("a range needs its step: `{name}={first}..{rest}:STEP`"))?;
-    let bounds = [Quantity::parse(first)?, Quantity::parse(last)?];
-    let step = Quantity::parse(step)?.in_unit_of(&bounds);
-    let [first, last] = bounds;
+    }
+    let (ends, step) = units::range(name, values)?;
+    let step = step.ok_or_else(|| format!("a range needs its step: `{text}:STEP`"))?;
+    let [first, last] = ends;
     let range = [first, last, step];
-    Quantity::alike(&range, text)?;
     Ok((name.to_owned(), Values::Range(range)))
 }
 

@@ -137,6 +137,28 @@ pub(crate) fn split<'a>(text: &'a str, values: &str) -> Result<(&'a str, &'a str
     }
 }
 
+/// Ends of a range of values, and its step.
+type Range = ([Quantity; 2], Option<Quantity>);
+
+/// Reads the range `FROM..TO` or `FROM..TO:STEP` of values of `name`; a step without a unit is in that of the ends.
+///
+/// # Errors
+/// If it is no range, a value is not understood, or some have a unit and some have none.
+pub(crate) fn range(name: &str, values: &str) -> Result<Range, String> {
+    let (ends, step) = match values.split_once(':') {
+        Some((ends, step)) => (ends, Some(Quantity::parse(step)?)),
+        None => (values, None),
+    };
+    let (from, to) = ends
+        .split_once("..")
+        .ok_or_else(|| format!("a range is needed: `{name}=FROM..TO`"))?;
+    let ends = [Quantity::parse(from)?, Quantity::parse(to)?];
+    let step = step.map(|step| step.in_unit_of(&ends));
+    let all: Vec<Quantity> = ends.iter().chain(&step).cloned().collect();
+    Quantity::alike(&all, &format!("{name}={values}"))?;
+    Ok((ends, step))
+}
+
 /// Reads a time, such as `1.5`, `20ms` or `2min`, as seconds.
 ///
 /// # Errors

@@ -311,7 +311,7 @@ fn constraints_are_diagnosed() {
 
 #[test]
 fn drives_are_swept_to_the_limits_of_motion() {
-    let told = output("kinematics cart --drive x=-1..1:10cm --hold s");
+    let told = output("kinematics cart --drive x=-1..1:0.1 --hold s");
     // The rod, of 0.5 m, is level at both ends.
     for part in [
         "cart from `assembled`: 9 of 21 positions, `x` from -0.4 to 0.4\n",
