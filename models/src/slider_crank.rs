@@ -73,8 +73,8 @@ impl SliderCrank {
         self.r * cos + (self.l * self.l - (self.r * sin).powi(2)).sqrt()
     }
 
-    /// Moment of inertia of the whole mechanism reduced to the crank, kg m²: T = ½ J(θ) θ̇², with the rod at the angle α, sin α = −(r/l) sin θ,
-    /// which turns with α̇ = −(r cos θ / l cos α) θ̇.
+    /// Moment of inertia of the whole mechanism reduced to the crank, kg m²: T = ½ J(θ) θ̇², with the rod at the angle α, sin α = −(r/l)
+    /// sin θ, which turns with α̇ = −(r cos θ / l cos α) θ̇.
     #[must_use]
     pub fn reduced_inertia(&self, angle: f64) -> f64 {
         let (r, l, (sin, cos)) = (self.r, self.l, angle.sin_cos());

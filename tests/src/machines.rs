@@ -1,8 +1,9 @@
 //! Declarations of mechanisms that come in several sizes, as macros: tests and benchmarks expand the sizes they need.
 
 /// `arm!(Name, n)`: a serial arm of n hinges, a multiple of 6, in joint angles. Hinge axes are z, y, y, x, y, z of the link before and
-/// again; links have length l along their x axes, mass m in their middle and principal moments of inertia `inertia`. Gravity points along −z.
-/// (w: angular velocity of each link, v: velocity of its near end, up: the vertical, all in axes of the link; h: height of its near end.)
+/// again; links have length l along their x axes, mass m in their middle and principal moments of inertia `inertia`. Gravity points along
+/// −z. (w: angular velocity of each link, v: velocity of its near end, up: the vertical, all in axes of the link; h: height of its near
+/// end.)
 #[macro_export]
 macro_rules! arm {
     ($name:ident, $n:literal) => {
@@ -120,8 +121,8 @@ macro_rules! crank_and_rod {
     };
 }
 
-/// `legs!(Name, n)`: n legs after Theo Jansen on one shaft, in pairs that are mirror images, the cranks of the pairs a third of a turn apart.
-/// `legs!(Name, n, own)`: the same with an angle for each leg, and the shaft as constraints between them.
+/// `legs!(Name, n)`: n legs after Theo Jansen on one shaft, in pairs that are mirror images, the cranks of the pairs a third of a turn
+/// apart. `legs!(Name, n, own)`: the same with an angle for each leg, and the shaft as constraints between them.
 #[macro_export]
 macro_rules! legs {
     ($name:ident, $n:literal) => {

@@ -1,4 +1,5 @@
-//! A and b of every model against differences of its constraints, which share nothing with what is differentiated otherwise; patterns of zeros.
+//! A and b of every model against differences of its constraints, which share nothing with what is differentiated otherwise; patterns of
+//! zeros.
 
 use models::Model;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};

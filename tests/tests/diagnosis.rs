@@ -5,8 +5,8 @@ use tests::assert_close;
 use ukcore::{Redundant, Simulation, State, diagnose, diagnose_along};
 
 ukcore::multibody! {
-    /// A slider-crank in points whose rod is as long as its crank: upright, crank and rod fold onto each other, and the slider may stay at the
-    /// bearing while both turn. y points up.
+    /// A slider-crank in points whose rod is as long as its crank: upright, crank and rod fold onto each other, and the slider may stay at
+    /// the bearing while both turn. y points up.
     pub Folding {
         params { l = 1.0, m = 1.0 }
         coords { x, y, s }
@@ -67,8 +67,8 @@ fn what_follows_from_what_is_told() {
     );
 }
 
-/// The angle between the rows of a double pendulum of equal masses, in the mass metric, gives the margin: rows (e, 0) and (−f, f)/√2 with unit
-/// vectors e and f have the inner product −e·f/√2, and singular values √(1 ± |e·f|/√2).
+/// The angle between the rows of a double pendulum of equal masses, in the mass metric, gives the margin: rows (e, 0) and (−f, f)/√2 with
+/// unit vectors e and f have the inner product −e·f/√2, and singular values √(1 ± |e·f|/√2).
 #[test]
 fn the_margin_is_that_of_the_angle_between_rows() {
     ukcore::multibody! {

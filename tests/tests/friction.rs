@@ -1,5 +1,5 @@
-//! Dry friction in the plane, v/|v| in each form in which it is written, straight through rest: closed forms of where a body stops, where it
-//! is held and how it goes on.
+//! Dry friction in the plane, v/|v| in each form in which it is written, straight through rest: closed forms of where a body stops, where
+//! it is held and how it goes on.
 
 use tests::{assert_all_close, assert_close};
 use ukcore::simulate::{Direction, Ending, Sample};

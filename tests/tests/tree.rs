@@ -1,5 +1,5 @@
-//! Bodies that hang on joints of the tree, beside the same bodies with coordinates of their own: the declarations differ in where the joints
-//! stand.
+//! Bodies that hang on joints of the tree, beside the same bodies with coordinates of their own: the declarations differ in where the
+//! joints stand.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use tests::{Random, assert_all_close, assert_close};
@@ -180,7 +180,8 @@ fn own_flat_state(t: f64, out: &[f64]) -> State {
     }
 }
 
-/// At random states of the tree: its bodies satisfy what the joints demand, and they are accelerated as those with coordinates of their own.
+/// At random states of the tree: its bodies satisfy what the joints demand, and they are accelerated as those with coordinates of their
+/// own.
 fn check<T: Mechanism, O: Mechanism>(freedoms: usize, spatial: bool) {
     let (width, velocities, each) = if spatial { (18, 6, 7) } else { (6, 3, 3) };
     let own = if spatial { own_state } else { own_flat_state };

@@ -1,5 +1,5 @@
-//! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it it
-//! turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
+//! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it
+//! it turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
 
 use ukcore::simulate::Sample;
 use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State, Trajectory};

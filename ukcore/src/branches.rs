@@ -1,8 +1,8 @@
 //! All the ways to put a mechanism together near a guess.
 //!
-//! Searches begin at the guess and at places all around it; from where each ends, the nearest place to the guess is sought within its branch, by
-//! Gauss and Newton's method along the constraints. Distances are measured by the root of inertia, over the coordinates that the guess
-//! tells of.
+//! Searches begin at the guess and at places all around it; from where each ends, the nearest place to the guess is sought within its
+//! branch, by Gauss and Newton's method along the constraints. Distances are measured by the root of inertia, over the coordinates that the
+//! guess tells of.
 
 use nalgebra::DVector;
 
@@ -38,9 +38,9 @@ const NONE: f64 = 1e-7;
 /// Steps towards the guess within a branch.
 const STEPS: usize = 60;
 
-/// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved and
-/// the other ways that are as near. It searches two dozen times, so it is for looking rather than for loops; branches far from the guess may
-/// be missed.
+/// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved
+/// and the other ways that are as near. It searches two dozen times, so it is for looking rather than for loops; branches far from the
+/// guess may be missed.
 ///
 /// # Errors
 /// What [`assemble`](crate::assemble()) reports.

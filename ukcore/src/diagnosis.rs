@@ -38,7 +38,8 @@ pub struct Diagnosis {
     pub redundant: Vec<Redundant>,
     /// Of the redundant ones those that are not so at positions nearby: the state is a singular position.
     pub only_here: Vec<String>,
-    /// Constraints whose multiplier is not unique: those that follow from others, and those from which they follow. Forces of all others are.
+    /// Constraints whose multiplier is not unique: those that follow from others, and those from which they follow. Forces of all others
+    /// are.
     pub undetermined: Vec<String>,
     /// The least singular value of the independent rows of A, each of length 1 in the mass metric: 1 where they are at right angles to each
     /// other, 0 at a singular position.
@@ -163,7 +164,8 @@ pub fn diagnose_along(
     told.transpose()
 }
 
-/// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is unknown.
+/// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is
+/// unknown.
 pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
     let mech: Prepared = mechanism.into();
     let State { t, q, v } = state;

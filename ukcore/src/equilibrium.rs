@@ -1,8 +1,8 @@
 //! Where a mechanism rests.
 //!
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
-//! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have a
-//! potential the search goes downhill: curvatures count by their magnitude, so it ends where the potential is least nearby, unless it
+//! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have
+//! a potential the search goes downhill: curvatures count by their magnitude, so it ends where the potential is least nearby, unless it
 //! starts where nothing moves it. Else r alone tells.
 
 use nalgebra::{DMatrix, DVector};

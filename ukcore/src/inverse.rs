@@ -192,8 +192,8 @@ fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> D
 }
 
 impl Prepared {
-    /// The rows that prescribe a motion at some of `times`: those whose rate at rest, at `state`, is not zero. A motor that holds still is none
-    /// of them.
+    /// The rows that prescribe a motion at some of `times`: those whose rate at rest, at `state`, is not zero. A motor that holds still is
+    /// none of them.
     #[must_use]
     pub fn motors(&self, state: &State, times: impl IntoIterator<Item = f64>) -> Vec<&'static str> {
         let spec = self.spec();

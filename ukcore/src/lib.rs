@@ -6,7 +6,8 @@
 //!
 //! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
-//! - [`assemble`](assemble()): a consistent state from a rough guess; [`branches`](branches()): the other ways to put it together. [`manifold::Projector`]: the nearest consistent state.
+//! - [`assemble`](assemble()): a consistent state from a rough guess; [`branches`](branches()): the other ways to put it together.
+//!   [`manifold::Projector`]: the nearest consistent state.
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.

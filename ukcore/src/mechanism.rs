@@ -90,8 +90,8 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// [`Structure::straight_line`](crate::spec::Structure::straight_line); else the certificate is 0.
     ///
     /// Where rows of [`Solve::redundant`](crate::spec::Solve::redundant) were left out it is 1 − k/1024 for k rows of which nothing but
-    /// rounding is left, and 1/2 − k/1024 where what is left may come from a distance to the constraints, which it does not know: then q̈ is
-    /// to be used only if their constraints are seen to be met otherwise, as by projection. [`Solver`](crate::Solver) keeps to that.
+    /// rounding is left, and 1/2 − k/1024 where what is left may come from a distance to the constraints, which it does not know: then q̈
+    /// is to be used only if their constraints are seen to be met otherwise, as by projection. [`Solver`](crate::Solver) keeps to that.
     fn acceleration<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
         let _ = (prepared, t, q, v, out);
         S::from_f64(0.0)
@@ -269,8 +269,8 @@ pub mod emitted {
         }
     }
 
-    /// A place that the optimiser does not see across. What it does with the statements between two of them takes time that grows faster than
-    /// their number, so long functions have some. It costs a load, and a branch that is never taken.
+    /// A place that the optimiser does not see across. What it does with the statements between two of them takes time that grows faster
+    /// than their number, so long functions have some. It costs a load, and a branch that is never taken.
     #[inline(always)]
     pub fn border() {
         if std::hint::black_box(false) {

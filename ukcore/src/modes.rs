@@ -17,8 +17,8 @@ use crate::solver::{Solver, SolverOptions};
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
 pub(crate) const INDEPENDENT: f64 = 1e-9;
-/// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that was
-/// found by iteration.
+/// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
+/// was found by iteration.
 const REST: f64 = 1e-9;
 
 /// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
@@ -53,8 +53,8 @@ impl Mode {
 }
 
 /// The modes of `mechanism` about `state`, slowest first: by frequency, then by growth. There are as many eigenvalues as the mechanism has
-/// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. An eigenvalue of 0, as of a body that
-/// nothing holds, comes double and is known to the root of rounding.
+/// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. An eigenvalue of 0, as of a body
+/// that nothing holds, comes double and is known to the root of rounding.
 ///
 /// # Errors
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
@@ -189,8 +189,8 @@ pub(crate) fn complement(
     turned.rows(rank, n - rank).transpose()
 }
 
-/// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps beside
-/// those before it.
+/// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps
+/// beside those before it.
 pub(crate) fn decompose(
     mut rows: DMatrix<f64>,
     units: &DVector<f64>,

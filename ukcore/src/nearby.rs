@@ -14,9 +14,9 @@ const SPREAD: f64 = 0.2;
 /// So often at most: then the state itself is taken.
 const HALVINGS: i32 = 24;
 
-/// A random state on the constraints near `from`, which is on them or nearly so: displaced in the directions that the constraints allow, with
-/// other velocities, and at another time where constraints depend on time. `None` where none is found at which all terms of the equations
-/// are finite.
+/// A random state on the constraints near `from`, which is on them or nearly so: displaced in the directions that the constraints allow,
+/// with other velocities, and at another time where constraints depend on time. `None` where none is found at which all terms of the
+/// equations are finite.
 pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Option<State> {
     let spec = mech.spec();
     let n = spec.n();

@@ -19,7 +19,8 @@ pub struct Spec {
     pub prepared: &'static [(&'static str, &'static str)],
     /// Coordinate names (`x[0]`, `th1`), the order of q.
     pub coords: &'static [&'static str],
-    /// Units of the coordinates, such as `"m"`, in their order; none at all where the declaration has no units, see [`Spec::coordinate_unit`].
+    /// Units of the coordinates, such as `"m"`, in their order; none at all where the declaration has no units, see
+    /// [`Spec::coordinate_unit`].
     pub coordinate_units: &'static [&'static str],
     /// Constraints, holonomic ones first, the order of the rows of A.
     pub constraints: &'static [ConstraintSpec],
@@ -100,8 +101,8 @@ pub struct StartOption {
     pub unit: &'static str,
 }
 
-/// A picture of a mechanism: shapes whose points [`Prepared::drawing`](crate::Prepared::drawing) gives at a state. Where no `draw` is declared
-/// it is made of what bodies and joints tell.
+/// A picture of a mechanism: shapes whose points [`Prepared::drawing`](crate::Prepared::drawing) gives at a state. Where no `draw` is
+/// declared it is made of what bodies and joints tell.
 #[derive(Debug, Clone, Copy)]
 pub struct Drawing {
     /// Coordinates of a point: 2 or 3; 0 where nothing is drawn.

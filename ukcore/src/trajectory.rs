@@ -345,9 +345,9 @@ impl Trajectory {
 
     /// Largest |E − E₀| over the samples, E = T + V, as a part of the largest energy exchanged: the largest T or |V − V₀|.
     ///
-    /// So the zero of V does not matter. A change that may be rounding of the energies themselves is given as a part of these, where they are
-    /// larger: of what all but rests energy is exchanged at the level of rounding. Where nothing moves it is 0; it says something of the accuracy only where energy
-    /// is conserved ([`Structure::conservative`](crate::spec::Structure::conservative)).
+    /// So the zero of V does not matter. A change that may be rounding of the energies themselves is given as a part of these, where they
+    /// are larger: of what all but rests energy is exchanged at the level of rounding. Where nothing moves it is 0; it says something of
+    /// the accuracy only where energy is conserved ([`Structure::conservative`](crate::spec::Structure::conservative)).
     #[must_use]
     pub fn energy_drift(&self) -> f64 {
         let mut drift = EnergyDrift::default();

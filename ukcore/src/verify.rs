@@ -1,10 +1,10 @@
 //! Whether the code emitted for a mechanism is what its declaration says, at random states on its constraints.
 //!
-//! What is declared and emitted as it stands, the constraints φ and ψ and the energies T and V, is differentiated by [`Dual`] numbers, which
-//! is exact and independent of the macro's symbolic derivatives, and compared with M, Q, A and b. What solves the equations is held against
-//! the equations themselves: A q̈ = b (eq. 5), no work of M q̈ − Q − c in displacements that the constraints allow (eq. 8), and eqs. 13
-//! and 19 as they are printed. Tolerances are some units of the rounding that the expressions carry, so nothing right is refused, and an
-//! error of a millionth is seen.
+//! What is declared and emitted as it stands, the constraints φ and ψ and the energies T and V, is differentiated by [`Dual`] numbers,
+//! which is exact and independent of the macro's symbolic derivatives, and compared with M, Q, A and b. What solves the equations is held
+//! against the equations themselves: A q̈ = b (eq. 5), no work of M q̈ − Q − c in displacements that the constraints allow (eq. 8), and
+//! eqs. 13 and 19 as they are printed. Tolerances are some units of the rounding that the expressions carry, so nothing right is refused,
+//! and an error of a millionth is seen.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -57,8 +57,8 @@ pub struct Unverified {
 ///
 /// - A, b and φ̇ against derivatives of the constraints, M and Q against those of the energies (Q where no force is declared), also for
 ///   other parameters;
-/// - accelerations, reactions and multipliers against eqs. 1, 5 and 8, and against eqs. 13 and 19 as they are printed; the power of forces and
-///   constraints against the change of the energy;
+/// - accelerations, reactions and multipliers against eqs. 1, 5 and 8, and against eqs. 13 and 19 as they are printed; the power of forces
+///   and constraints against the change of the energy;
 /// - the projection onto the constraints;
 /// - each start with its default options: that it can be assembled, meets the constraints, and keeps what it holds.
 ///
@@ -169,8 +169,8 @@ struct Findings {
 }
 
 impl Findings {
-    /// Compares `found` with `expected` to `allowed`; whether they agree. `place` names what it is of. What is infinite or not a number has no
-    /// derivative, as √x at 0, and tells nothing.
+    /// Compares `found` with `expected` to `allowed`; whether they agree. `place` names what it is of. What is infinite or not a number has
+    /// no derivative, as √x at 0, and tells nothing.
     fn compare(
         &mut self,
         place: impl Fn() -> String,

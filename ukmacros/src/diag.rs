@@ -102,8 +102,8 @@ impl Diagnostics {
         found.iter_mut().skip(from).for_each(|d| d.loc = loc);
     }
 
-    /// Shows names as `shown` has them. Of the errors at one of these `places`, each with what it is, the first is left: what is wrong in a part
-    /// is wrong in all its members.
+    /// Shows names as `shown` has them. Of the errors at one of these `places`, each with what it is, the first is left: what is wrong in a
+    /// part is wrong in all its members.
     pub(crate) fn within(&self, shown: &BTreeMap<String, String>, places: &[(Loc, String)]) {
         let place = |l: &Loc| format!("{:?} {:?}", l.start, l.end);
         let places: BTreeMap<String, &str> = places

@@ -3,9 +3,9 @@
 ukcore::multibody! {
     /// Andrews' squeezing mechanism: seven planar bodies, one degree of freedom, driven by a constant torque.
     ///
-    /// Schiehlen (ed.), Multibody Systems Handbook, 1990; Hairer & Wanner, Solving Ordinary Differential Equations II, VII.7; Test Set for IVP
-    /// Solvers. Bodies 1 to 7 of the literature are `k[0]` to `k[6]`: crank, rod, triangle, rod, lever, rod, lever; `a`, `b` and `c` are its
-    /// points A, B and C of the ground. Lengths in m, masses in kg.
+    /// Schiehlen (ed.), Multibody Systems Handbook, 1990; Hairer & Wanner, Solving Ordinary Differential Equations II, VII.7; Test Set for
+    /// IVP Solvers. Bodies 1 to 7 of the literature are `k[0]` to `k[6]`: crank, rod, triangle, rod, lever, rod, lever; `a`, `b` and `c`
+    /// are its points A, B and C of the ground. Lengths in m, masses in kg.
     pub Andrews {
         params {
             m[7] = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498] [kg],

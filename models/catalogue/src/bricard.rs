@@ -3,8 +3,8 @@
 ukcore::multibody! {
     /// Bricard's linkage: five rods, six hinges; by count it cannot move.
     ///
-    /// Library of Computational Benchmark Problems of IFToMM, A04. Rods of 1 m and 1 kg with a square section of 0.1 m stand in the edges of
-    /// a cube; of the 30 rows of the hinges 29 are independent where all are met, 30 elsewhere. Gravity points along −y.
+    /// Library of Computational Benchmark Problems of IFToMM, A04. Rods of 1 m and 1 kg with a square section of 0.1 m stand in the edges
+    /// of a cube; of the 30 rows of the hinges 29 are independent where all are met, 30 elsewhere. Gravity points along −y.
     pub Bricard {
         params { m = 1.0 [kg], across = (1.01 / 12.0) [kg m^2], along = (0.02 / 12.0) [kg m^2], g = 9.81 [m/s^2] }
         bodies {

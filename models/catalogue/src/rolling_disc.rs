@@ -3,8 +3,8 @@
 ukcore::multibody! {
     /// A thin disc that rolls without slip on a level plane.
     ///
-    /// Routh, Advanced Dynamics of a System of Rigid Bodies, 1905, §244; its steady circles are known in closed form. The axis of the disc is
-    /// its y.
+    /// Routh, Advanced Dynamics of a System of Rigid Bodies, 1905, §244; its steady circles are known in closed form. The axis of the disc
+    /// is its y.
     pub RollingDisc {
         params {
             m = 1.0 [kg],

@@ -41,8 +41,8 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Runs a model, and prints for each motor the range of its effort, its largest power, and its work.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line, and where there is no motor; [`Failure::Failed`] where the run ends early: what
-/// was found up to there is printed all the same.
+/// [`Failure::Usage`] for what is wrong with the command line, and where there is no motor; [`Failure::Failed`] where the run ends early:
+/// what was found up to there is printed all the same.
 pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let mech = &ready.mechanism;

@@ -43,7 +43,8 @@ struct Body {
     linear: [Vector3<f64>; 2],
 }
 
-/// The solution of K x = −r with x_k = 0 for one k, and that of K x = 0 with x_k = 1, for K of rank 5, by elimination with complete pivoting.
+/// The solution of K x = −r with x_k = 0 for one k, and that of K x = 0 with x_k = 1, for K of rank 5, by elimination with complete
+/// pivoting.
 fn solved(mut k: Matrix6<f64>, mut r: Vector6<f64>) -> [Vector6<f64>; 2] {
     let mut order: [usize; 6] = [0, 1, 2, 3, 4, 5];
     for at in 0..N {

@@ -161,8 +161,8 @@ impl Arm {
     }
 
     /// The articulated-body recursion (Featherstone, Rigid Body Dynamics Algorithms, table 7.1), in blocks of 3 × 3, over hinges, each the
-    /// matrix from the axes of the link before, its axis and its rate. Gives of each its q̈, and of its link's near end (ω, v) and the rates
-    /// of these in the link's axes; gravity counts as acceleration.
+    /// matrix from the axes of the link before, its axis and its rate. Gives of each its q̈, and of its link's near end (ω, v) and the
+    /// rates of these in the link's axes; gravity counts as acceleration.
     fn recursion<const N: usize>(
         &self,
         hinge: impl Fn(usize) -> (Matrix3<f64>, Vector3<f64>, f64),

@@ -3,7 +3,8 @@
 use ukcore::State;
 
 ukcore::multibody! {
-    /// A plane four-bar linkage of spatial bodies and hinges, as it comes out of a drawing: three of the 20 hinge rows follow from the rest.
+    /// A plane four-bar linkage of spatial bodies and hinges, as it comes out of a drawing: three of the 20 hinge rows follow from the
+    /// rest.
     pub SpatialFourBar {
         params { l1 = 0.4, l2 = 1.1, l3 = 0.8, base = 1.0, m = 1.0, i1 = 0.002, i2 = 0.08, g = 9.81 }
         coords { x[3], y[3], z[3], a[3], b[3], c[3], d[3] }

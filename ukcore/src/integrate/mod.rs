@@ -229,7 +229,8 @@ pub(crate) struct Step<'a> {
     pub(crate) new: Sample<'a>,
     /// The time at its end, or that at the end of the run where a step over a singular position goes on behind it.
     pub(crate) until: f64,
-    /// States between; there if [`Settings::dense`] is set, if [`Problem::next_sample`] lies in this step or if that goes on behind the end.
+    /// States between; there if [`Settings::dense`] is set, if [`Problem::next_sample`] lies in this step or if that goes on behind the
+    /// end.
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
     /// What the state at its end is thought to be off, at most 1 in the error norm; there with the interpolant, if the method estimates it.
     pub(crate) error: Option<&'a [f64]>,

@@ -171,8 +171,8 @@ impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
 /// once, here.
 ///
 /// It is made by [`Mechanism::prepared`], or from a mechanism or a reference to one by `Prepared::from`; whatever solves, projects or
-/// simulates takes either. With [`Dual`](crate::scalar::Dual) parameters come derivatives by parameters. Its methods do not check lengths; each panics if a
-/// slice has not the stated one.
+/// simulates takes either. With [`Dual`](crate::scalar::Dual) parameters come derivatives by parameters. Its methods do not check lengths;
+/// each panics if a slice has not the stated one.
 pub struct Prepared<S: Scalar = f64, C: ?Sized + 'static = dyn Emitted<S>> {
     code: &'static C,
     spec: &'static Spec,

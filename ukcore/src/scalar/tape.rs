@@ -1,8 +1,8 @@
 //! Emitted functions as tapes, for numbers that are computed with too rarely to compile everything for them.
 //!
-//! To compile a function takes as long as to run it a million times. It is compiled for the numbers of hot loops; numbers that carry several
-//! derivatives, or their rounding, read it off a tape, which the compiler of mechanisms writes beside it. The reader is compiled once for each
-//! type of number, in this crate.
+//! To compile a function takes as long as to run it a million times. It is compiled for the numbers of hot loops; numbers that carry
+//! several derivatives, or their rounding, read it off a tape, which the compiler of mechanisms writes beside it. The reader is compiled
+//! once for each type of number, in this crate.
 
 use super::Scalar;
 

@@ -3,13 +3,13 @@
 //! Its certificate compares pivots in the mass metric, in which the rows of two links that share a light mass are nearly parallel. Whether
 //! a row counts is a matter of A alone, though. So where all rows of A counted for certain in a rank-revealing solve, they do while A has
 //! not changed much; and what the straight line lacks in digits, refinement gives back. Its q̈ satisfies M q̈ = Q + c + Aᵀλ for some λ to
-//! rounding of |M||q̈| + |Q + c| + |A|ᵀ|λ|, row by row, as do the corrections Δ of M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈ + Δ
-//! solves equations that are as near (Higham 2002, §12.2).
+//! rounding of |M||q̈| + |Q + c| + |A|ᵀ|λ|, row by row, as do the corrections Δ of M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈
+//! + Δ solves equations that are as near (Higham 2002, §12.2).
 //!
-//! Where a coordinate j is substituted by a constraint c, λ_c is nowhere computed; it is what row j makes it, (M q̈ − Q − …)_j/a_cj, and row j
-//! is met as it stands. Row i of another coordinate in c has been solved as that row less f = a_ci/a_cj times row j, to rounding of its own
-//! terms and f times those of row j; the latter are |a_ci λ_c|, as if a_ci were off by its rounding. So with two coordinates that are
-//! turned, with the component along n for row j and that along t for row i.
+//! Where a coordinate j is substituted by a constraint c, λ_c is nowhere computed; it is what row j makes it, (M q̈ − Q − …)_j/a_cj, and
+//! row j is met as it stands. Row i of another coordinate in c has been solved as that row less f = a_ci/a_cj times row j, to rounding of
+//! its own terms and f times those of row j; the latter are |a_ci λ_c|, as if a_ci were off by its rounding. So with two coordinates that
+//! are turned, with the component along n for row j and that along t for row i.
 
 use super::{Formula, RANK_CEILING, Solver};
 use crate::pinv::axpy;

@@ -61,21 +61,21 @@ pub struct Solve {
     /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some
     /// states.
     pub met: &'static [usize],
-    /// Names of the velocities, linear in q̇, that the kinetic energy is written in, where M is not expanded: the solve has them as unknowns, and
-    /// eliminates each with its definition.
+    /// Names of the velocities, linear in q̇, that the kinetic energy is written in, where M is not expanded: the solve has them as
+    /// unknowns, and eliminates each with its definition.
     pub velocities: &'static [&'static str],
-    /// Constraints, |e|² = 1 of a quaternion among them, whose coordinates are given by the constraint and by these velocities, all at right
-    /// angles to each other: the solve has their rates in the place of the coordinates'.
+    /// Constraints, |e|² = 1 of a quaternion among them, whose coordinates are given by the constraint and by these velocities, all at
+    /// right angles to each other: the solve has their rates in the place of the coordinates'.
     pub turned: &'static [usize],
-    /// Constraints between two bodies so turned, or one and the ground, that are solved for rates of one of them beforehand: these then stand
-    /// alone in them. The square of the determinant that is divided by keeps [`Solve::least_share`] of what it could be, or q̈ is computed in
-    /// another way.
+    /// Constraints between two bodies so turned, or one and the ground, that are solved for rates of one of them beforehand: these then
+    /// stand alone in them. The square of the determinant that is divided by keeps [`Solve::least_share`] of what it could be, or q̈ is
+    /// computed in another way.
     pub solved: &'static [usize],
-    /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for each
-    /// of these, tied to the one before, with its share of the inertia.
+    /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for
+    /// each of these, tied to the one before, with its share of the inertia.
     pub copies: &'static [usize],
-    /// Constraints that imply each other where all are met, with parameters at their defaults. Of their rows as many as follow from the others
-    /// at a state are left out there, with the multiplier 0; which of them, the state decides.
+    /// Constraints that imply each other where all are met, with parameters at their defaults. Of their rows as many as follow from the
+    /// others at a state are left out there, with the multiplier 0; which of them, the state decides.
     pub redundant: &'static [usize],
 }
 
@@ -87,11 +87,12 @@ pub enum Pivot {
     Prescribed(usize, usize),
     /// A coordinate without inertia, taken together with a constraint in which its coefficient is such a one.
     Massless(usize, usize),
-    /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates: its coefficient there is a number, as
-    /// are all that are the same at any state.
+    /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates: its coefficient there is a number,
+    /// as are all that are the same at any state.
     Substituted(usize, usize),
-    /// Two coordinates with inertia, and a constraint that contains these alone: they are turned into the direction that it prescribes, which
-    /// is done with, and the one that it leaves free, which takes the place of the first. There is no coefficient that must not vanish.
+    /// Two coordinates with inertia, and a constraint that contains these alone: they are turned into the direction that it prescribes,
+    /// which is done with, and the one that it leaves free, which takes the place of the first. There is no coefficient that must not
+    /// vanish.
     Turned(usize, usize, usize),
     /// A coordinate with inertia.
     Coordinate(usize),

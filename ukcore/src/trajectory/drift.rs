@@ -136,8 +136,8 @@ impl EnergyDrift {
         (change, terms)
     }
 
-    /// The change as a share of the energy exchanged; where it may be rounding of the energies, as a share of these, if they are larger. As it
-    /// is where nothing moves.
+    /// The change as a share of the energy exchanged; where it may be rounding of the energies, as a share of these, if they are larger. As
+    /// it is where nothing moves.
     pub(super) fn share(&self) -> f64 {
         let rounding = self.change <= ROUNDING * self.terms;
         let size = match rounding {

@@ -23,8 +23,8 @@ const PRINTED: f64 = 1e-5;
 const RANK: f64 = 1e-9;
 /// A row that keeps less than this share of itself beside the others may be lost a little off the constraints.
 const SINGULAR: f64 = 1e-3;
-/// A state for the projection is off by this part of the coordinates, by the second one where branches of the motion are nearer than the first;
-/// and is to be off by this part of that afterwards.
+/// A state for the projection is off by this part of the coordinates, by the second one where branches of the motion are nearer than the
+/// first; and is to be off by this part of that afterwards.
 const OFF: [f64; 2] = [1e-6, 1e-9];
 const LEFT: f64 = 1e-3;
 

@@ -21,8 +21,8 @@ pub(super) struct Chosen {
     pub(super) costs: Costs,
 }
 
-/// Operations for each entry that an elimination changes, as it was found for all kinds of mechanisms. By such a guess ways that come within a
-/// quarter of the least are tried; the true counts decide among them.
+/// Operations for each entry that an elimination changes, as it was found for all kinds of mechanisms. By such a guess ways that come
+/// within a quarter of the least are tried; the true counts decide among them.
 const PER_ENTRY: usize = 4;
 
 /// A system whose solution has the accelerations in it.
@@ -192,7 +192,8 @@ fn given(d: &Dynamics, g: &Graph) -> usize {
     cost(g, &all).work()
 }
 
-/// The systems that are worth a try: the equations themselves, with the velocities that the kinetic energy is written in, with copies of hubs.
+/// The systems that are worth a try: the equations themselves, with the velocities that the kinetic energy is written in, with copies of
+/// hubs.
 fn variants(
     system: &mut System,
     held: &Dynamics,

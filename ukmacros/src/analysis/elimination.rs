@@ -1,10 +1,11 @@
 //! The constrained solve as part of the graph: [M Aᵀ; A 0] [q̈; −λ] = [Q; b] eliminated symbolically, in an order chosen here.
 //!
 //! Pivots:
-//! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone, also
-//!    after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
+//! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone,
+//!    also after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
 //!    coordinates, M' = Zᵀ M Z. Bodies pinned to each other are eliminated so, each with its pins, and velocities that T is written in with
-//!    their definitions ([`super::lift`]). So are bodies in space and the rates of turning that their joints were solved for ([`super::joint`]).
+//!    their definitions ([`super::lift`]). So are bodies in space and the rates of turning that their joints were solved for
+//!    ([`super::joint`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
 //! 3. Two coordinates with a constraint that contains them alone, turned into what it prescribes and what it leaves free: see [`rotation`].
@@ -12,8 +13,8 @@
 //! Which pairs and rotations are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
 //! ([`super::choice`]).
 //!
-//! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own: see
-//! [`dropping`].
+//! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own:
+//! see [`dropping`].
 //!
 //! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
 //! order; [`solution`] solves for a right-hand side.

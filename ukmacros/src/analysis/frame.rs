@@ -1,16 +1,16 @@
 //! Rates of turning in place of the second derivatives of a quaternion, or of other coordinates e that are like it.
 //!
 //! Let T be written in velocities y_k = c_k·ė, let a constraint on the same coordinates be a·ë = b, and let a and the c_k be as many as the
-//! coordinates and at right angles to each other at all states: 2 e and the rows of 2 E, for a quaternion. Then ë = R x with x = (a·ë, c_1·ë,
-//! …) and R = (a/|a|², c_1/|c_1|², …), which needs no elimination, and
+//! coordinates and at right angles to each other at all states: 2 e and the rows of 2 E, for a quaternion. Then ë = R x with x = (a·ë,
+//! c_1·ë, …) and R = (a/|a|², c_1/|c_1|², …), which needs no elimination, and
 //!
 //! ```text
 //! ⎡M  Aᵀ⎤ ⎡ ë⎤ = ⎡Q⎤     is     ⎡RᵀMR  RᵀAᵀ⎤ ⎡ x⎤ = ⎡RᵀQ⎤
 //! ⎣A  0 ⎦ ⎣−λ⎦   ⎣b⎦            ⎣A R    0  ⎦ ⎣−λ⎦   ⎣ b ⎦
 //! ```
 //!
-//! where the constraint prescribes the first of x, each definition gives one of the others, and RᵀMR is the inertia that T is written with. M
-//! knows nothing of the length of a quaternion; here nothing has to be added to it.
+//! where the constraint prescribes the first of x, each definition gives one of the others, and RᵀMR is the inertia that T is written with.
+//! M knows nothing of the length of a quaternion; here nothing has to be added to it.
 
 use super::dynamics::Dynamics;
 use super::joint::{Joint, joints};
@@ -214,8 +214,9 @@ impl Turned {
     }
 }
 
-/// The equations `d` with the velocities of `lift`, in the rates of all frames that are found, with these. Nothing if there are none, or if not
-/// all constraints in `regular` are theirs: what these add to M is in the coordinates as they were. `defaults` are those of the parameters.
+/// The equations `d` with the velocities of `lift`, in the rates of all frames that are found, with these. Nothing if there are none, or if
+/// not all constraints in `regular` are theirs: what these add to M is in the coordinates as they were. `defaults` are those of the
+/// parameters.
 pub(crate) fn turned(
     d: &Dynamics,
     lift: &Lift,

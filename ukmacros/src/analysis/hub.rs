@@ -1,8 +1,8 @@
 //! Hubs: coordinates that many otherwise separate parts share, as the angle of a shaft that drives a dozen legs.
 //!
-//! Eliminated as one coordinate a hub couples all constraints on it with each other. So it may be written once for each part, q_0 = q_1 = … = q_k,
-//! tied one to the next: a coordinate more and a constraint more for each further part, with the inertia divided among them. The motion is the
-//! same, and each part is coupled to its neighbours alone.
+//! Eliminated as one coordinate a hub couples all constraints on it with each other. So it may be written once for each part, q_0 = q_1 = …
+//! = q_k, tied one to the next: a coordinate more and a constraint more for each further part, with the inertia divided among them. The
+//! motion is the same, and each part is coupled to its neighbours alone.
 
 use super::dynamics::Dynamics;
 use super::groups::Groups;
@@ -84,7 +84,8 @@ fn hubs(d: &Dynamics, g: &Graph) -> Vec<usize> {
     many.filter(|i| !shared.contains(i) && fixed(i)).collect()
 }
 
-/// The part that each constraint belongs to: constraints on one coordinate that is no hub, or on coordinates that share inertia, are of one.
+/// The part that each constraint belongs to: constraints on one coordinate that is no hub, or on coordinates that share inertia, are of
+/// one.
 fn parts(d: &Dynamics, hubs: &[usize]) -> Vec<usize> {
     let (n, m) = (d.force.len(), d.rhs.len());
     let mut groups = Groups::new(n + m);

@@ -1,16 +1,16 @@
 //! Rows of joints, solved for the rates of turning of one of their bodies.
 //!
-//! The rows of a hinge that keep its axes along each other contain the rates x of both bodies ([`super::frame`]): W x + V y = b. No coefficient
-//! of theirs is the same at all states, but where the constraints are met those of one body turn as a whole: W has, in two or three of its
-//! columns, a determinant that is always the same share of what it could be. Then W⁻¹(W x + V y) = W⁻¹b has the coefficients 1 and 0 of these
-//! rates, and they are eliminated with the rows as places are with the rows of a ball joint. For K = [M Aᵀ; A 0] it is a congruence: q̈ is
-//! the same, and the multipliers are W⁻ᵀ times the new ones.
+//! The rows of a hinge that keep its axes along each other contain the rates x of both bodies ([`super::frame`]): W x + V y = b. No
+//! coefficient of theirs is the same at all states, but where the constraints are met those of one body turn as a whole: W has, in two or
+//! three of its columns, a determinant that is always the same share of what it could be. Then W⁻¹(W x + V y) = W⁻¹b has the coefficients 1
+//! and 0 of these rates, and they are eliminated with the rows as places are with the rows of a ball joint. For K = [M Aᵀ; A 0] it is a
+//! congruence: q̈ is the same, and the multipliers are W⁻ᵀ times the new ones.
 //!
 //! At run time (det W)² has to keep a share of ∏ |w|², the squared lengths of the rows in all rates of the body; where it does, rounding
 //! is not magnified by more than three times the root of one over the share. Where constraints are met it does.
 //!
-//! Of the two bodies of a joint the one is taken that is farther from the ground: eliminated leaf by leaf, each with its joint, bodies fill in
-//! what one body has with the one before it.
+//! Of the two bodies of a joint the one is taken that is farther from the ground: eliminated leaf by leaf, each with its joint, bodies fill
+//! in what one body has with the one before it.
 
 use super::dynamics::Dynamics;
 use super::frame::Frame;
@@ -146,8 +146,8 @@ fn determinant(w: &[Vec<Id>], g: &mut Graph) -> Id {
     g.factored_sum(&terms)
 }
 
-/// Solves rows of joints for rates of `frames`; `d` are the equations in these, `held` those in coordinates. Rows that may be `redundant` are
-/// not touched. `defaults` are those of the parameters.
+/// Solves rows of joints for rates of `frames`; `d` are the equations in these, `held` those in coordinates. Rows that may be `redundant`
+/// are not touched. `defaults` are those of the parameters.
 pub(super) fn joints(
     d: &mut Dynamics,
     held: &Dynamics,

@@ -1,7 +1,7 @@
 //! Velocities y that the kinetic energy is written in, as unknowns of the elimination.
 //!
-//! Where T is a sum of ½ D_ab y_a y_b, with y linear in q̇ and each given by others before it (the velocity of a link by that of the link it
-//! hangs on), M = Yᵀ D Y need not be expanded: with w = Y q̈, M q̈ = Q + Aᵀλ is the system
+//! Where T is a sum of ½ D_ab y_a y_b, with y linear in q̇ and each given by others before it (the velocity of a link by that of the link
+//! it hangs on), M = Yᵀ D Y need not be expanded: with w = Y q̈, M q̈ = Q + Aᵀλ is the system
 //!
 //! ```text
 //! ⎡ 0   0   Y₀ᵀ  Aᵀ⎤ ⎡ q̈⎤   ⎡Q⎤
@@ -10,8 +10,8 @@
 //! ⎣ A   0   0    0 ⎦ ⎣−λ⎦   ⎣b⎦
 //! ```
 //!
-//! which is as sparse as the declaration. Each w is eliminated with its definition, leaf first: for links in a tree that is the recursion over
-//! articulated bodies. The same with no other pivots leaves M, as sums of composite inertias.
+//! which is as sparse as the declaration. Each w is eliminated with its definition, leaf first: for links in a tree that is the recursion
+//! over articulated bodies. The same with no other pivots leaves M, as sums of composite inertias.
 
 use super::dynamics::Dynamics;
 use crate::expr::{Derivative, Graph, Id, Node, Symbol};
@@ -270,9 +270,9 @@ impl Lift {
         terms
     }
 
-    /// What T contributes to the forces on the unknowns, at q̈ = 0. With λ = ∂T/∂u as far as the unknowns after u give it, Lagrange's d/dt ∂T/∂q̇
-    /// − ∂T/∂q is, before it is carried over: D u̇ + Ḋ u + Σ_l λ_l ċ_l for each unknown, less Σ_lk λ_l u_k ∂c_lk/∂q + ½ uᵀ ∂D/∂q u for each
-    /// coordinate.
+    /// What T contributes to the forces on the unknowns, at q̈ = 0. With λ = ∂T/∂u as far as the unknowns after u give it, Lagrange's d/dt
+    /// ∂T/∂q̇ − ∂T/∂q is, before it is carried over: D u̇ + Ḋ u + Σ_l λ_l ċ_l for each unknown, less Σ_lk λ_l u_k ∂c_lk/∂q + ½ uᵀ ∂D/∂q u
+    /// for each coordinate.
     fn forces(&self, g: &mut Graph) -> BTreeMap<Unknown, Id> {
         let mut total = Derivative::total();
         let mut values = BTreeMap::new();

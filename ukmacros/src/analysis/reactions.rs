@@ -15,7 +15,8 @@ use super::switches::Switch;
 use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
 
 /// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs,
-/// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
+/// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be
+/// solved for.
 pub(super) fn solve(
     system: &mut System,
     held: &mut Dynamics,

@@ -17,8 +17,8 @@ pub(super) struct Writing<'a> {
 }
 
 /// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
-/// `let`, and recurses on them where it writes what debuggers read. A border follows each group, for its optimiser: packing scalars into vectors
-/// takes time that grows as the square of the statements in sight.
+/// `let`, and recurses on them where it writes what debuggers read. A border follows each group, for its optimiser: packing scalars into
+/// vectors takes time that grows as the square of the statements in sight.
 const MANY: usize = 1000;
 /// Variables of a group.
 const GROUP: usize = 64;
@@ -430,8 +430,8 @@ impl Writer<'_> {
     }
 }
 
-/// The terms of a sum with the constant `c` in the order in which they are added, what is known first first, behind a positive one, so that a
-/// difference needs no negation; and whether the constant comes before them.
+/// The terms of a sum with the constant `c` in the order in which they are added, what is known first first, behind a positive one, so that
+/// a difference needs no negation; and whether the constant comes before them.
 pub(super) fn ascending(
     graph: &Graph,
     c: f64,

@@ -7,8 +7,8 @@ use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// The statement that reads `function` off a tape, in numbers that want it so. None where the runtime does not call it with such numbers, or
-/// where it takes more registers than a tape can name.
+/// The statement that reads `function` off a tape, in numbers that want it so. None where the runtime does not call it with such numbers,
+/// or where it takes more registers than a tape can name.
 pub(super) fn tape(
     system: &System,
     function: &Function,

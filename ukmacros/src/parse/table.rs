@@ -1,5 +1,5 @@
-//! Declarations that others are made of, on their way: a macro sees its own input only, so the declaration of a part is asked for by a macro
-//! of the part's name, which calls this one again with the part's tokens before those of the declaration:
+//! Declarations that others are made of, on their way: a macro sees its own input only, so the declaration of a part is asked for by a
+//! macro of the part's name, which calls this one again with the part's tokens before those of the declaration:
 //! `@parts [{path} {tokens} {parts of the part} …] declaration`. Tokens in which there is an error, which is told, begin with `!`; a
 //! declaration that is no part hands on a `?` alone.
 

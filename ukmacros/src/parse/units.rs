@@ -1,8 +1,8 @@
 //! Units, found before anything else is read, since `[kg m^2]` is no expression of Rust.
 //!
 //! Brackets behind a number hold a unit. Behind a name or a vector they do where they can be no index: indices are made of constants, loop
-//! variables and arguments, none of which is called like a unit that is meant; where a constant is, behind a vector of which it would choose an
-//! entry, that is told. The unit's text takes the place of what is in the brackets.
+//! variables and arguments, none of which is called like a unit that is meant; where a constant is, behind a vector of which it would
+//! choose an entry, that is told. The unit's text takes the place of what is in the brackets.
 
 use super::item::Measure;
 use crate::diag::{Diagnostics, suggest};

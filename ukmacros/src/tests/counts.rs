@@ -1,4 +1,5 @@
-//! What accelerations of some mechanisms cost, in operations: how that grows with their size, and with the coordinates they are declared in.
+//! What accelerations of some mechanisms cost, in operations: how that grows with their size, and with the coordinates they are declared
+//! in.
 
 use super::analysis;
 use proc_macro2::TokenStream;

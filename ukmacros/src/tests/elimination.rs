@@ -485,8 +485,8 @@ fn hunt() {
     println!("{tally:?}");
 }
 
-/// Two bodies on a hinge about their y axes, the second turned off these about the line between x and z: where they are at right angles its rows cannot be solved for
-/// its rates, and the straight line says so; where they are not it may be used.
+/// Two bodies on a hinge about their y axes, the second turned off these about the line between x and z: where they are at right angles its
+/// rows cannot be solved for its rates, and the straight line says so; where they are not it may be used.
 #[test]
 fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
     let (mut system, model) = system(

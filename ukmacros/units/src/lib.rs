@@ -177,7 +177,8 @@ impl Unit {
         (up, down, decimals)
     }
 
-    /// The same product of kilogram, metre, second, radian and units made of these: `N/m` of `kN/mm`, `rad/s` of `rpm`; nothing of a number.
+    /// The same product of kilogram, metre, second, radian and units made of these: `N/m` of `kN/mm`, `rad/s` of `rpm`; nothing of a
+    /// number.
     #[must_use]
     pub fn si(&self) -> String {
         let mut powers: Vec<(&str, i32)> = Vec::new();

@@ -349,9 +349,9 @@ impl Newton {
         Ok(Solved::No { shorten: 0.5 })
     }
 
-    /// Whether a step that was solved in one iteration, for what was known of the convergence before, is solved indeed: where forces jump, or
-    /// are stiff for a moment only, the first change may be all wrong or hardly be one. `residual` is what is left of the equations of the
-    /// last stage, times h; the iteration is repeated where it says so.
+    /// Whether a step that was solved in one iteration, for what was known of the convergence before, is solved indeed: where forces jump,
+    /// or are stiff for a moment only, the first change may be all wrong or hardly be one. `residual` is what is left of the equations of
+    /// the last stage, times h; the iteration is repeated where it says so.
     pub(super) fn confirms(
         &mut self,
         equations: &mut Equations<'_>,

@@ -16,20 +16,21 @@
 //! With 2 × 2 pivots the same holds of what they leave, M' = Zᵀ M Z and A' = A Z, if these are known to rounding of what they could be, and
 //! not of what is left of them. Hence what a pivot is compared with:
 //!
-//! - A diagonal of M' is a sum of μ f² over the coordinates that are given by it, f = −a_k/a. A μ may itself be what is left of more inertia (a
-//!   light link that carries a heavy one), with the rounding of that: the diagonal's G has μ's own G in its place.
-//! - An entry of A' is a difference, which may cancel (two pins close to each other): G of its constraint has the sum of the squares of its terms
-//!   for the square of the difference.
-//! - A coordinate that is given by others moves a constraint no longer where these do not move it (slider and crank at their dead centre: what
-//!   is left of the row vanishes as a whole). The constraint's G keeps a²/μ of the coordinate, as if it were still there; so the last
+//! - A diagonal of M' is a sum of μ f² over the coordinates that are given by it, f = −a_k/a. A μ may itself be what is left of more
+//!   inertia (a light link that carries a heavy one), with the rounding of that: the diagonal's G has μ's own G in its place.
+//! - An entry of A' is a difference, which may cancel (two pins close to each other): G of its constraint has the sum of the squares of its
+//!   terms for the square of the difference.
+//! - A coordinate that is given by others moves a constraint no longer where these do not move it (slider and crank at their dead centre:
+//!   what is left of the row vanishes as a whole). The constraint's G keeps a²/μ of the coordinate, as if it were still there; so the last
 //!   constraint's share is that of its row of B before any substitution, up to a factor of 2.
 //!
 //! Inertia that is no pivot by itself is checked as a parameter: positive, and finite.
 //!
-//! Without constraints there is no rank to be decided, and no way to q̈ that keeps more digits: M is definite, and its LDLᵀ solves equations as
-//! near to those that are given as any factorisation does, however small its pivots are (Higham 2002, theorem 10.3), those of velocities that T
-//! is written in included: what these leave of M is a sum of μ f², known to rounding of itself. A heavy load at the end of a light arm has
-//! such pivots everywhere. Here a share has to be clear of rounding alone, so that M is definite beyond doubt: [`FREE_SHARE`].
+//! Without constraints there is no rank to be decided, and no way to q̈ that keeps more digits: M is definite, and its LDLᵀ solves
+//! equations as near to those that are given as any factorisation does, however small its pivots are (Higham 2002, theorem 10.3), those of
+//! velocities that T is written in included: what these leave of M is a sum of μ f², known to rounding of itself. A heavy load at the end
+//! of a light arm has such pivots everywhere. Here a share has to be clear of rounding alone, so that M is definite beyond doubt:
+//! [`FREE_SHARE`].
 //!
 //! 1/1024 is `RANK_CEILING`² of the rank-revealing solve: above it that would not doubt the rank either, at states off the constraints
 //! included. Where a share is less it takes over (or, where light masses alone are the cause, `ukcore::solver` refines); it works on A

@@ -1,18 +1,18 @@
 //! Rows that may follow from those before them: left out at states where they do.
 //!
 //! Let row k, in the metric of M and of length √G, keep √d beside the span of the rows eliminated before it, and let R be what it asks for
-//! beyond what they do: R = b_k − a_k q̈⁰ with q̈⁰ the accelerations without it. With it they would be q̈⁰ + (R/d) M⁻¹ rᵀ, where r, |r|² = d,
-//! is what a_k keeps: a change of R/√d in the mass metric. Without it, its multiplier is 0, and what is left of A q̈ = b is R.
+//! beyond what they do: R = b_k − a_k q̈⁰ with q̈⁰ the accelerations without it. With it they would be q̈⁰ + (R/d) M⁻¹ rᵀ, where r, |r|² =
+//! d, is what a_k keeps: a change of R/√d in the mass metric. Without it, its multiplier is 0, and what is left of A q̈ = b is R.
 //!
 //! - Where the row follows from the others d and R are zero, and both accelerations are the same. Computed, d/G is a few ε over the least
 //!   share that was accepted: [`NOTHING`] is above. R is compared with what accelerations are, N² = Σ M_ii q̈_i² + Q_i²/M_ii over all
 //!   coordinates that are coupled to the row, and with its b: R ≤ [`MET`] √(G N² + b²) is what any row that counts is met to. R/√d is then
 //!   bounded where d tells anything; where d is too small to tell, whoever asks has the rank decided once by the dense solve.
-//! - At a distance δ from the constraints redundant rows keep √d of order δ, and R is of order δ: both are what drift lends. (For φ_k = Σ μ_j
-//!   φ_j, as holds near states that are regular in the other rows, the row keeps Σ φ_j ∇μ_j, and R is Σ 2 μ̇_j φ̇_j + μ̈_j φ_j.) Accelerations
-//!   without the row go on smoothly there; that its constraint is met is for the projection to show, which checks the rows left out as
-//!   all others; the certificate says so, by [`DRIFTED`]. What drift is granted is bounded: d/G by [`SAFE_SHARE`], above which the row
-//!   counts, and R by [`GRANTED`].
+//! - At a distance δ from the constraints redundant rows keep √d of order δ, and R is of order δ: both are what drift lends. (For φ_k = Σ
+//!   μ_j φ_j, as holds near states that are regular in the other rows, the row keeps Σ φ_j ∇μ_j, and R is Σ 2 μ̇_j φ̇_j + μ̈_j φ_j.)
+//!   Accelerations without the row go on smoothly there; that its constraint is met is for the projection to show, which checks the rows
+//!   left out as all others; the certificate says so, by [`DRIFTED`]. What drift is granted is bounded: d/G by [`SAFE_SHARE`], above which
+//!   the row counts, and R by [`GRANTED`].
 //!
 //! Of rows that imply each other any may be the one too many, and which of them keeps least may change along a motion (the crank of an
 //! elliptic trammel is needed nowhere, but alone it has dead centres): so each of them may be left out. How many are left out is what

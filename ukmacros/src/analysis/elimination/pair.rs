@@ -109,8 +109,8 @@ impl Matrix {
         })
     }
 
-    /// Constraints remember that coordinate `i`, of `inertia`, was theirs, but for the one it is eliminated `with`: where what gives it cannot
-    /// move it, as a crank at its dead centre, all that is left of a constraint vanishes, and would else be compared with itself.
+    /// Constraints remember that coordinate `i`, of `inertia`, was theirs, but for the one it is eliminated `with`: where what gives it
+    /// cannot move it, as a crank at its dead centre, all that is left of a constraint vanishes, and would else be compared with itself.
     pub(super) fn weigh(&mut self, i: usize, with: usize, inertia: Id, g: &mut Graph) {
         let constraints = self.rows[i].range(self.n..).copied();
         let others: Vec<usize> = constraints.filter(|r| *r != with).collect();

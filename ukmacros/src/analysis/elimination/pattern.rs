@@ -133,10 +133,10 @@ impl Pattern {
         self.near[constraint].range(..self.n).copied()
     }
 
-    /// The pivot of `coordinate` with `constraint`, if it is one at any state: its coefficient there is fixed, not zero and not much smaller
-    /// than another fixed one, and the constraint has no entry on the diagonal, as it gets where one of its coordinates is eliminated alone.
-    /// With inertia the fixed coefficients have to be numbers, too: one that is much larger than the pivot at run time would magnify the
-    /// rounding of accelerations, with all rows of A q̈ = b still met.
+    /// The pivot of `coordinate` with `constraint`, if it is one at any state: its coefficient there is fixed, not zero and not much
+    /// smaller than another fixed one, and the constraint has no entry on the diagonal, as it gets where one of its coordinates is
+    /// eliminated alone. With inertia the fixed coefficients have to be numbers, too: one that is much larger than the pivot at run time
+    /// would magnify the rounding of accelerations, with all rows of A q̈ = b still met.
     pub(super) fn pair(&self, coordinate: usize, constraint: usize) -> Option<Pair> {
         let coefficient = *self.fixed.get(&(constraint, coordinate))?;
         let row = self.fixed.range((constraint, 0)..(constraint + 1, 0));

@@ -12,17 +12,17 @@
 //! congruence, whatever M₂ is, if it is definite.
 //!
 //! The length of t is free. Between coordinates as declared, where nothing waits for it, t is divided by |a|², so that rods leave
-//! coefficients of the order of 1, whatever units they are in; in a chain, where each would wait for the division before it, one in [`CHAIN`]
-//! is.
+//! coefficients of the order of 1, whatever units they are in; in a chain, where each would wait for the division before it, one in
+//! [`CHAIN`] is.
 //!
-//! What is checked at run time is a share d/G, as of other constraints (see [`super::certificate`]): d = a M₂⁻¹ aᵀ = D/(m₁ m₂ − m₁₂²), and G
-//! = Σ a²/m over the coordinates as they were declared, since of the row as it was only what is across the constraints turned before it
+//! What is checked at run time is a share d/G, as of other constraints (see [`super::certificate`]): d = a M₂⁻¹ aᵀ = D/(m₁ m₂ − m₁₂²), and
+//! G = Σ a²/m over the coordinates as they were declared, since of the row as it was only what is across the constraints turned before it
 //! is left. For diagonal M what is left of M is diagonal, so that d/G is the squared distance of the row from the rows before. By Cauchy
-//! and Schwarz (a₁ t₁ + a₂ t₂)² ≤ (a₁²/m₁ + a₂²/m₂) D, term by term too: rounding of what a row has of w, relative to its terms, is rounding
-//! relative to √(G D), and D, which a small coefficient on a heavy coordinate may make up, is known where d/G is not small. Where the
-//! two share inertia, m₁ m₂ − m₁₂² has to keep a share of m₁ m₂, and d is taken with m₁ m₂ in its place, which is less. That it does need
-//! not be checked where M is of numbers, and each row of |M_ij|/√(M_ii M_jj) beside its diagonal adds up to δ ≤ [`APART`]: what stands for
-//! different coordinates has no coordinate in common, so that |m₁₂| ≤ δ/(1 − δ) √(m₁ m₂).
+//! and Schwarz (a₁ t₁ + a₂ t₂)² ≤ (a₁²/m₁ + a₂²/m₂) D, term by term too: rounding of what a row has of w, relative to its terms, is
+//! rounding relative to √(G D), and D, which a small coefficient on a heavy coordinate may make up, is known where d/G is not small. Where
+//! the two share inertia, m₁ m₂ − m₁₂² has to keep a share of m₁ m₂, and d is taken with m₁ m₂ in its place, which is less. That it does
+//! need not be checked where M is of numbers, and each row of |M_ij|/√(M_ii M_jj) beside its diagonal adds up to δ ≤ [`APART`]: what stands
+//! for different coordinates has no coordinate in common, so that |m₁₂| ≤ δ/(1 − δ) √(m₁ m₂).
 
 use super::entry::Entry;
 use super::matrix::Matrix;

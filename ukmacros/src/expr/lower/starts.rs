@@ -272,8 +272,8 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Spatial bodies of which nothing is said are near the orientation in which their axes are those of the ground, and where they hang on a
-    /// spherical joint, those of the body before.
+    /// Spatial bodies of which nothing is said are near the orientation in which their axes are those of the ground, and where they hang on
+    /// a spherical joint, those of the body before.
     fn upright(&mut self, out: &mut Vec<GuessValue>) {
         let one = self.graph.one();
         for first in self.model.quaternions() {

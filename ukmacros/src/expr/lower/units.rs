@@ -1,9 +1,9 @@
 //! Units: whether the declaration adds metres to seconds.
 //!
-//! The declaration is lowered once more, for this alone, with a symbol in the place of each number that has a unit or may have one. What has no
-//! unit is unknown, and fits anything. A number is a plain one where it is a factor (`0.5 * m`); where it stands by itself (`x + 2`,
-//! `[0.3, 0]`, `let g = 9.81`) it may be of anything. Units of what the language itself knows, such as those of time and of the coordinates of
-//! bodies, count against those that are declared alone: where none are declared nothing is refused.
+//! The declaration is lowered once more, for this alone, with a symbol in the place of each number that has a unit or may have one. What
+//! has no unit is unknown, and fits anything. A number is a plain one where it is a factor (`0.5 * m`); where it stands by itself (`x + 2`,
+//! `[0.3, 0]`, `let g = 9.81`) it may be of anything. Units of what the language itself knows, such as those of time and of the coordinates
+//! of bodies, count against those that are declared alone: where none are declared nothing is refused.
 
 use super::{System, lower_with};
 use crate::diag::Diagnostics;
