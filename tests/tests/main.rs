@@ -43,6 +43,7 @@ mod redundant;
 mod redundant_loop;
 mod registry;
 mod rest;
+mod rough;
 mod rows_in_time;
 mod stability;
 mod starts;
