@@ -9,7 +9,7 @@ use ukcore::{Effort, Error, Inverse};
 
 use crate::failure::Failure;
 use crate::motion::{self, INTERVALS, Motion};
-use crate::numbers::{full, width};
+use crate::numbers::{full, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
@@ -125,9 +125,12 @@ fn summary(
             .map(|((t, p), (later, next))| 0.5 * (later - t) * (p + next))
             .sum();
         let name = motor.name;
+        // (No zero has a sign.)
+        let [least, most, power, at, work] =
+            [least, most, power, at, work].map(|x| significant(x + 0.0, 7));
         writeln!(
             out,
-            "  {name:<wide$}  effort {least:.6} to {most:.6}, power at most {power:.6} at t = {at:.4} s, work {work:.6}"
+            "  {name:<wide$}  effort {least} to {most}, power at most {power} at t = {at} s, work {work}"
         )?;
     }
     Ok(())
