@@ -2,7 +2,8 @@
 
 use tests::assert_close;
 use ukcore::{
-    Error, Mechanism, Posture, Prepared, Simulation, State, inverse, inverse_forces, kinematics,
+    Error, Mechanism, Posture, Prepared, Simulation, Solver, SolverOptions, State, inverse,
+    inverse_forces, kinematics,
 };
 
 ukcore::multibody! {
@@ -279,4 +280,64 @@ fn a_motion_that_the_forces_cannot_make_is_refused() {
         .unwrap_err()
         .to_string();
     assert!(unknown.contains("did you mean `x`"), "{unknown}");
+}
+
+ukcore::multibody! {
+    /// A rotor out of balance on a driven hinge in space.
+    pub Rotor {
+        params { w = 7.0, c = 1.5 }
+        bodies { spatial b { mass: 3, inertia: [0.05, 0.08, 0.11, 0.01, 0.02, -0.015], centre: [0.05, 0.02, 0.3] } }
+        holonomic {
+            h: hinge(ground.at([0, 0, 0]), b.at([0, 0, 0]), [0, 0, 1])
+            motor: drive(ground, b, [0, 0, 1], w * t + c * sq(t))
+        }
+        start s { b.e0 near 1.0 }
+    }
+}
+
+ukcore::multibody! {
+    /// The same on a hinge that is free.
+    pub Hinged {
+        bodies { spatial b { mass: 3, inertia: [0.05, 0.08, 0.11, 0.01, 0.02, -0.015], centre: [0.05, 0.02, 0.3] } }
+        holonomic { h: hinge(ground.at([0, 0, 0]), b.at([0, 0, 0]), [0, 0, 1]) }
+        start s { b.e0 near 1.0 }
+    }
+}
+
+/// Near the orientation of the ground e0 has next to no inertia along itself. The torque on the motor is J dw/dt all the same, with J about
+/// the axis; and on e3 it is the generalised force 2 J dw/dt.
+#[test]
+fn efforts_of_turned_bodies_are_right_beside_the_identity() {
+    let inertia = 0.11 + 3.0 * (0.05_f64.powi(2) + 0.02_f64.powi(2));
+    let rotor = Rotor::default();
+    let start = rotor.start("s", &[].into()).unwrap();
+    let mut solver = Solver::new(Rotor::default(), SolverOptions::default());
+    let free = Hinged::default();
+    let resting = free.start("s", &[].into()).unwrap();
+    for small in [0.0, 1e-60, -1e-40, 1e-30, 1e-20, -1e-17, 1e-12, -1e-9] {
+        let mut state = start.clone();
+        state.q[Rotor::B_E3] = small;
+        let found = inverse(&rotor, &state, &["motor"]).unwrap()[0].clone();
+        assert_close("J dw/dt", found.effort.abs(), 3.0 * inertia, 1e-8);
+        assert_close("power", found.power, 7.0 * 3.0 * inertia, 1e-7);
+        let rows = Rotor::SPEC.constraint_indices("motor").unwrap();
+        let solution = solver.solve(state.t, &state.q, &state.v).unwrap();
+        assert_close("λ", found.effort, solution.multipliers[rows[0]], 1e-8);
+
+        let mut state = resting.clone();
+        state.q[Hinged::B_E3] = small;
+        let mut acceleration = vec![0.0; state.q.len()];
+        // ω = 2 de3/dt, of all points of the body.
+        acceleration[Hinged::B_E3] = 1.5;
+        acceleration[Hinged::B_X] = -0.02 * 3.0;
+        acceleration[Hinged::B_Y] = 0.05 * 3.0;
+        let posture = Posture {
+            state,
+            acceleration,
+        };
+        let found = inverse_forces(&free, &posture, &["b.e3"]).unwrap();
+        assert_close("force on e3", found[0].effort, 2.0 * 3.0 * inertia, 1e-8);
+    }
+    let swept = kinematics(&free, &resting, &[("b.e3", -0.5..0.5)], &[], 10).unwrap();
+    assert!(swept.efforts(&["b.e3"]).is_ok());
 }

@@ -131,10 +131,16 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
     DMatrix::from_vec(m, n, jacobian)
 }
 
-/// What coordinates with the inertia `mass` are measured by: 1/√M_jj; 1 where there is no inertia.
+/// No coordinate counts as lighter than this share of the heaviest. A quaternion's component that is all but 1 has next to no inertia along
+/// itself, however far it is carried by the others.
+const LIGHTEST: f64 = 1e-12;
+
+/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, of those with the least of all by [`LIGHTEST`]; 1 where there is no
+/// inertia at all.
 pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
+    let heaviest = mass.diagonal().max();
     mass.diagonal().map(|m| match m > 0.0 {
-        true => m.sqrt().recip(),
+        true => m.max(LIGHTEST * heaviest).sqrt().recip(),
         false => 1.0,
     })
 }
