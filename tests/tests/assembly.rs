@@ -2,7 +2,7 @@
 //! lengths of any unit, rows of any scale, rows that others imply.
 
 use std::fmt::Debug;
-use tests::{Random, assert_close, hunted};
+use tests::{Random, hunted};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::{Error, Mechanism, Prepared, State, assemble};
 
@@ -551,39 +551,5 @@ fn random_mechanisms_with_zeros() {
 fn hunt_for_assembly() {
     for found in hunt(1_000_000..1_000_000 + hunted(3_000)) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
-    }
-}
-
-ukcore::multibody! {
-    /// A slider-crank whose slide passes beside the shaft.
-    pub Beside {
-        params { r = 0.2, l = 0.7, e = 0.1 }
-        bodies {
-            planar crank { mass: 1.5, inertia: 0.02, centre: [r / 3, 0.01] }
-            planar rod { mass: 0.8, inertia: 0.05, centre: [l / 2, 0] }
-            planar piston { mass: 3.0, inertia: 0.01 }
-        }
-        holonomic {
-            a: pin(ground.at([0, 0]), crank.at([0, 0]))
-            b: pin(crank.at([r, 0]), rod.at([0, 0]))
-            c: pin(rod.at([l, 0]), piston.at([0, 0]))
-            d: slider(ground.at([0, e]), piston.at([0, 0]), [1, 0])
-        }
-    }
-}
-
-/// Of both ways to put it together the one on the side of the guess, however far that is from both.
-#[test]
-fn the_nearer_of_two_ways_is_taken() {
-    let mechanism = Beside::default();
-    let angle = 0.7_f64;
-    let rise = 0.1 - 0.2 * angle.sin();
-    let reach = (0.7_f64.powi(2) - rise * rise).sqrt();
-    for guess in [-5.0, -0.54, -0.3, 0.8, 5.0, 100.0] {
-        let state = [("crank.angle", angle), ("piston.x", guess)];
-        let state = State::guess::<Beside>(&state).unwrap();
-        let found = assemble(&mechanism, state, &["crank.angle"]).unwrap();
-        let expected = 0.2 * angle.cos() + reach.copysign(guess);
-        assert_close("piston", found.q[Beside::PISTON_X], expected, 1e-12);
     }
 }

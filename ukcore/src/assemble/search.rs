@@ -19,10 +19,9 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Beginnings, ever farther off, besides the guess and its perturbations, where solutions lie apart and another one may be nearer.
 const BEGINNINGS: usize = 24;
 
-/// The solution that is found from the guess is taken for the nearest one without a search if the second step is at most this share of the
-/// first: where second derivatives make it ½ h of it, and h < ½, no other solution is nearer (theorem of Newton and Kantorovich). Along the
-/// steps alone second derivatives may look far smaller than they are, so next to nothing of ½ is left to them.
-const STRAIGHT: f64 = 1e-6;
+/// The solution that is found from the guess is the nearest one if the second step is at most this share of the first. Where second
+/// derivatives make it ½ h of it, and h < ½, no other solution is nearer (theorem of Newton and Kantorovich).
+const STRAIGHT: f64 = 0.1;
 
 /// Solutions nearer than this share of the coordinates are one.
 const SAME: f64 = 1e-6;
