@@ -317,7 +317,7 @@ fn efforts_of_turned_bodies_are_right_beside_the_identity() {
     for small in [0.0, 1e-60, -1e-40, 1e-30, 1e-20, -1e-17, 1e-12, -1e-9] {
         let mut state = start.clone();
         state.q[Rotor::B_E3] = small;
-        let found = inverse(&rotor, &state, &["motor"]).unwrap()[0].clone();
+        let found = inverse(&rotor, &state, &["motor"]).unwrap()[0];
         assert_close("J dw/dt", found.effort.abs(), 3.0 * inertia, 1e-8);
         assert_close("power", found.power, 7.0 * 3.0 * inertia, 1e-7);
         let rows = Rotor::SPEC.constraint_indices("motor").unwrap();
