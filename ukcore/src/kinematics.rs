@@ -3,6 +3,7 @@
 //! With as many drives and held coordinates as there are degrees of freedom, the positions that the constraints allow are a curve,
 //! which is followed from the start: so the mechanism stays in the branch that it is in, also where branches cross.
 
+use std::cell::LazyCell;
 use std::fmt;
 use std::ops::Range;
 
@@ -12,7 +13,7 @@ use crate::error::Error;
 use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
-use crate::numbers::full;
+use crate::numbers::significant;
 
 mod curve;
 mod posture;
@@ -154,18 +155,16 @@ impl Kinematics {
             let rows = constraint_matrix(&self.mechanism, &posture.state);
             null_space(rows, &units(&mass_matrix(&self.mechanism, &posture.state))).ncols()
         };
-        let counts: Vec<usize> = self.postures.iter().map(freedoms).collect();
-        let usual = counts.iter().min();
+        // Looked at only where forces are refused.
+        let usual = LazyCell::new(|| self.postures.iter().map(freedoms).min());
         let unknown = |j: &usize| Effort {
             name: self.mechanism.spec().coords[*j],
             effort: f64::NAN,
             power: f64::NAN,
         };
-        let all = self.postures.iter().zip(&counts);
-        let efforts = all.map(|(posture, count)| {
-            let found = inverse_forces(&self.mechanism, posture, coordinates);
-            match found {
-                Err(Error::InvalidSetting { .. }) if Some(count) > usual => {
+        let efforts = self.postures.iter().map(|posture| {
+            match inverse_forces(&self.mechanism, posture, coordinates) {
+                Err(Error::InvalidSetting { .. }) if Some(freedoms(posture)) > *usual => {
                     Ok(driven.iter().map(unknown).collect())
                 }
                 found => found,
@@ -195,13 +194,12 @@ impl Kinematics {
 /// and passes as a drive".
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let digits = |x: f64, digits: usize| full(format!("{x:.digits$e}").parse().unwrap_or(x));
         let drives = self.drives.iter().zip(&self.units);
         let drives = drives.map(|((name, value), unit)| {
-            let told = format!("`{name}` cannot pass {}", digits(*value, 6));
+            let told = format!("`{name}` cannot pass {}", significant(*value, 7));
             match *unit {
                 "" => told,
-                "rad" => format!("{told} rad ({} deg)", digits(value.to_degrees(), 4)),
+                "rad" => format!("{told} rad ({} deg)", significant(value.to_degrees(), 5)),
                 unit => format!("{told} {unit}"),
             }
         });

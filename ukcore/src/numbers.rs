@@ -38,6 +38,12 @@ pub fn full(value: f64) -> String {
     format!("{value:e}")
 }
 
+/// A number with so many significant digits, and none that only fill it up.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    full(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,6 +52,14 @@ mod tests {
     fn zero_has_no_sign() {
         assert_eq!(fixed(-1e-18, 8), "0.00000000");
         assert_eq!(fixed(-0.25, 1), "-0.2");
+    }
+
+    #[test]
+    fn significant_digits_are_counted() {
+        assert_eq!(
+            [1.52489, 270.0, 0.0, 2.8e-21].map(|x| significant(x, 4)),
+            ["1.525", "270", "0", "2.8e-21"]
+        );
     }
 
     #[test]

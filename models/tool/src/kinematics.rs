@@ -13,8 +13,8 @@ use crate::columns::Columns;
 use crate::command;
 use crate::curves::Curves;
 use crate::failure::Failure;
-use crate::numbers::{count, full, width};
-use crate::output::{self, WholeFile};
+use crate::numbers::{count, full, significant, width};
+use crate::output::{self, write_whole};
 use crate::scene::{Ready, Scene};
 use crate::units::{self, Quantity};
 
@@ -88,14 +88,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     })?;
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| over(&ready, name, asked));
-    let hold: Vec<&str> = args
-        .scene
-        .start
-        .place
-        .hold
-        .iter()
-        .map(String::as_str)
-        .collect();
+    let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
     let found = found.map_err(told)?.at_speed(speed);
     if let Some(mut curves) = curves.transpose()? {
@@ -116,7 +109,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     match args.csv.as_deref() {
         None => {}
         Some(_) if to_stdout => output::to_stdout(|out| table(out, &ready, &found))?,
-        Some(path) => WholeFile::create(path)?.finish_with(text(&ready, &found)?)?,
+        Some(path) => write_whole(path, |out| table(out, &ready, &found))?,
     }
     if to_stdout {
         return Ok(());
@@ -217,12 +210,6 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
     Ok((ranges, intervals))
 }
 
-fn text(ready: &Ready<'_>, found: &Found) -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    table(&mut bytes, ready, found).map_err(|e| Failure::Failed(e.to_string()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
 fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()> {
     let spec = ready.mechanism.spec();
     let coords = || spec.coords.iter().copied();
@@ -272,7 +259,12 @@ fn summary(
         places.len()
     )?;
     match places[..] {
-        [begin, .., end] => writeln!(out, ", `{name}` from {} to {}", short(begin), short(end))?,
+        [begin, .., end] => writeln!(
+            out,
+            ", `{name}` from {} to {}",
+            significant(begin, 7),
+            significant(end, 7)
+        )?,
         _ => writeln!(out)?,
     }
     let mut limits = found.swept.limits.iter();
@@ -298,7 +290,8 @@ fn summary(
         let least = values().min_by(|a, b| a.0.total_cmp(&b.0));
         let most = values().max_by(|a, b| a.0.total_cmp(&b.0));
         if let (Some(least), Some(most)) = (least, most) {
-            let [low, from, high, to] = [least.0, least.1, most.0, most.1].map(short);
+            let [low, from, high, to] =
+                [least.0, least.1, most.0, most.1].map(|x| significant(x, 7));
             writeln!(
                 out,
                 "  {label:<wide$}  {low} at {name} = {from}, to {high} at {to}"
@@ -306,9 +299,4 @@ fn summary(
         }
     }
     Ok(())
-}
-
-/// Seven digits.
-fn short(x: f64) -> String {
-    full(format!("{x:.6e}").parse().unwrap_or(x))
 }

@@ -1,6 +1,6 @@
 //! Numbers as text for reading.
 
-pub use ukcore::numbers::{fixed, full, short};
+pub use ukcore::numbers::{fixed, full, short, significant};
 
 /// A number of things in words: `1 step`, `2 steps`.
 #[must_use]
@@ -24,12 +24,6 @@ pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
         false => format!("{name} = {si} {unit}"),
     };
     text.trim_end().to_owned()
-}
-
-/// So many significant digits of a number, and none that only fill it up.
-#[must_use]
-pub(crate) fn significant(value: f64, digits: usize) -> String {
-    full(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
 }
 
 /// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
@@ -108,10 +102,6 @@ mod tests {
         ] {
             assert_eq!(setting("a", value, unit), text);
         }
-        assert_eq!(
-            [1.52489, 270.0, 0.0, 2.8e-21].map(|x| significant(x, 4)),
-            ["1.525", "270", "0", "2.8e-21"]
-        );
     }
 
     #[test]

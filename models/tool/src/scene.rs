@@ -45,6 +45,13 @@ pub struct Place {
     pub hold: Vec<String>,
 }
 
+impl Place {
+    /// The names of the coordinates that are held.
+    pub(crate) fn held(&self) -> Vec<&str> {
+        self.hold.iter().map(String::as_str).collect()
+    }
+}
+
 /// A mechanism with the parameters asked for, at the start asked for.
 #[derive(Debug, Clone)]
 pub struct Ready<'a> {
@@ -176,8 +183,7 @@ impl Start {
                 values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             }
         }
-        let hold: Vec<&str> = self.place.hold.iter().map(String::as_str).collect();
-        assemble(mechanism, state, &hold).map_err(|error| match error {
+        assemble(mechanism, state, &self.place.held()).map_err(|error| match error {
             error @ Error::NotAssembled { .. } => Failure::Failed(format!(
                 "{error}; `--guess NAME=VALUE` gives one, of {}",
                 spec.coords.join(", ")

@@ -19,8 +19,9 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Beginnings, ever farther off, besides the guess and its perturbations, where solutions lie apart and another one may be nearer.
 const BEGINNINGS: usize = 24;
 
-/// The solution that is found from the guess is the nearest one if the second step is at most this share of the first. Where second
-/// derivatives make it ½ h of it, and h < ½, no other solution is nearer (theorem of Newton and Kantorovich).
+/// The solution that is found from the guess is taken for the nearest one if the second step is at most this share of the first. Where
+/// second derivatives make it ½ h of it, and h < ½, no other solution is nearer (theorem of Newton and Kantorovich). A sign of it, no
+/// proof: seen along the steps alone they may look smaller than they are elsewhere.
 const STRAIGHT: f64 = 0.1;
 
 /// Solutions nearer than this share of the coordinates are one.
