@@ -77,8 +77,9 @@ pub(crate) enum Route {
 #[derive(Debug, Clone)]
 pub(crate) struct Dense {
     n: usize,
-    /// Rows that make M regular, of [`Solve::regular`](crate::spec::Solve::regular).
-    regular: &'static [usize],
+    /// Rows that make M regular, those of quaternions apart: [`Solve::regular`](crate::spec::Solve::regular) and
+    /// [`Solve::turned`](crate::spec::Solve::turned).
+    regular: [&'static [usize]; 2],
     pub(crate) metric: Metric,
     pub(crate) cod: Decomposition,
     /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
@@ -116,7 +117,7 @@ impl Dense {
         let (n, m) = (spec.n(), spec.m());
         Dense {
             n,
-            regular: spec.structure.solve.regular,
+            regular: [spec.structure.solve.regular, spec.structure.solve.turned],
             metric: Metric::new(n, spec.structure.mass_diagonal),
             cod: Decomposition::new(m, n),
             row_scale: vec![0.0; m],
@@ -150,9 +151,13 @@ impl Dense {
     ) -> Result<(), MassFault> {
         match route {
             Route::Regular => self.metric.factor(mass)?,
-            Route::Singular => {
-                (self.metric).scale(mass, a.jacobian, a.stride, a.rows, self.regular)?
-            }
+            Route::Singular => (self.metric).scale(
+                mass,
+                a.jacobian,
+                a.stride,
+                a.rows,
+                self.regular.iter().copied().flatten().copied(),
+            )?,
         }
         let columns = self.cod.load(a.rows);
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {

@@ -144,7 +144,7 @@ impl Metric {
         jacobian: &[f64],
         stride: usize,
         rows: usize,
-        regular: &[usize],
+        regular: impl Iterator<Item = usize>,
     ) -> Result<(), MassFault> {
         let n = self.n;
         self.kind = Kind::Scales;
@@ -155,7 +155,7 @@ impl Metric {
             }
             self.root[i] = own.sqrt();
         }
-        for &c in regular.iter().filter(|c| **c < rows) {
+        for c in regular.filter(|c| *c < rows) {
             let row = || jacobian.iter().skip(c).step_by(stride);
             let length = row().fold(0.0_f64, |sum, a| sum.hypot(*a));
             let acts = row().zip(&self.root).filter(|(a, _)| **a != 0.0);
@@ -345,7 +345,7 @@ mod tests {
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
         let no_rows: [f64; 0] = [];
         assert_eq!(
-            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0, &[]),
+            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0, std::iter::empty()),
             Err(MassFault::Indefinite(0))
         );
     }
