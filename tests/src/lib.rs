@@ -11,19 +11,41 @@ mod random;
 pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 
-use models::{Model, Visitor};
-
-/// A test of any model.
-pub trait Check {
-    /// Tests the model `M`; panics where it fails.
-    fn check<M: Model>(&self);
-}
+use models::{Entry, Model, StartOptions, Visitor};
+use ukcore::State;
 
 /// Runs `check` on every model of the registry.
 ///
 /// # Panics
 /// Where `check` does.
-pub fn every_model(check: &impl Check) {
+pub fn every_model(check: impl Fn(&Entry)) {
+    let models = models::entries();
+    assert!(!models.is_empty(), "the registry has no model");
+    models.iter().for_each(check);
+}
+
+/// The default start of a model with its default parameters.
+///
+/// # Panics
+/// If there is none.
+#[must_use]
+pub fn start(model: &Entry) -> State {
+    let name = model.starts.first().map_or("", |start| start.name);
+    let start = model.start(&model.mechanism, name, &StartOptions::new());
+    start.expect("the default start exists")
+}
+
+/// A test of any model that needs its type, and is compiled for each.
+pub trait Check {
+    /// Tests the model `M`; panics where it fails.
+    fn check<M: Model>(&self);
+}
+
+/// Runs `check` on the type of every model of the registry.
+///
+/// # Panics
+/// Where `check` does.
+pub fn every_type(check: &impl Check) {
     struct Run<'a, C>(&'a C);
     impl<C: Check> Visitor for Run<'_, C> {
         type Output = ();
@@ -31,9 +53,7 @@ pub fn every_model(check: &impl Check) {
             self.0.check::<M>();
         }
     }
-    let ids = models::ids();
-    assert!(!ids.is_empty(), "the registry has no model");
-    for id in ids {
+    for id in models::ids() {
         models::visit(id, Run(check)).expect("ids() names registered models");
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::mechanism::Terms;
-use ukcore::{Mechanism, Prepared, State};
+use ukcore::{Prepared, State};
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
 #[must_use]
@@ -94,13 +94,8 @@ const RANK: f64 = 1e-10;
 impl Dense {
     /// Evaluates `mechanism` at `state`.
     #[must_use]
-    pub fn of<M: Mechanism>(mechanism: &M, state: &State) -> Self {
-        Dense::of_prepared(&mechanism.prepared(), state)
-    }
-
-    /// The same of a mechanism whose type does not matter.
-    #[must_use]
-    pub fn of_prepared(mechanism: &Prepared, state: &State) -> Self {
+    pub fn of(mechanism: impl Into<Prepared>, state: &State) -> Self {
+        let mechanism: Prepared = mechanism.into();
         let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         let mut dense = Dense {
             mass: DMatrix::zeros(n, n),

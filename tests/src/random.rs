@@ -1,8 +1,8 @@
 //! Random numbers and states, the same in every run.
 
 use models::Model;
-use ukcore::State;
 use ukcore::manifold::Projector;
+use ukcore::{Prepared, State};
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone)]
@@ -48,35 +48,43 @@ impl Random {
         mechanism
     }
 
-    /// The default start, each coordinate moved by up to `spread` and each velocity by up to 1, at a time in [0, 1). On no constraint.
-    ///
-    /// # Panics
-    /// If the model has no default start.
-    pub fn state<M: Model>(&mut self, mechanism: &M, spread: f64) -> State {
-        let mut state = mechanism.default_start().expect("the default start exists");
-        state.t = 0.5 * (self.signed() + 1.0);
-        for q in &mut state.q {
+    /// `start`, each coordinate moved by up to `spread` and each velocity by up to 1, at a time in [0, 1). On no constraint.
+    #[must_use]
+    pub fn moved(&mut self, mut start: State, spread: f64) -> State {
+        start.t = 0.5 * (self.signed() + 1.0);
+        for q in &mut start.q {
             *q += spread * self.signed();
         }
-        for v in &mut state.v {
+        for v in &mut start.v {
             *v += self.signed();
         }
+        start
+    }
+
+    /// A random state near `start`, projected onto the constraints.
+    ///
+    /// # Panics
+    /// If the projection fails.
+    #[must_use]
+    pub fn near(&mut self, mechanism: &Prepared, start: State, spread: f64) -> State {
+        let mut state = self.moved(start, spread);
+        let mut projector = Projector::new(mechanism);
+        let name = mechanism.spec().name;
+        projector
+            .position(state.t, &mut state.q, &state.v)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        projector
+            .velocity(state.t, &state.q, &mut state.v)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
         state
     }
 
     /// A random state near the default start, projected onto the constraints.
     ///
     /// # Panics
-    /// If the projection fails.
+    /// If the model has no default start, or the projection fails.
     pub fn consistent_state<M: Model>(&mut self, mechanism: &M, spread: f64) -> State {
-        let mut state = self.state(mechanism, spread);
-        let mut projector = Projector::new(mechanism);
-        projector
-            .position(state.t, &mut state.q, &state.v)
-            .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
-        projector
-            .velocity(state.t, &state.q, &mut state.v)
-            .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
-        state
+        let start = mechanism.default_start().expect("the default start exists");
+        self.near(&mechanism.prepared(), start, spread)
     }
 }

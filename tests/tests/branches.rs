@@ -1,5 +1,6 @@
 //! The ways to put a mechanism together near a guess: the nearest, what moved, and others that are as near.
 
+use crate::linkage::FourBar;
 use tests::assert_close;
 use ukcore::model::StartOptions;
 use ukcore::{Error, Mechanism, State, branches};
@@ -12,23 +13,6 @@ ukcore::multibody! {
         holonomic { left: sq(x) + sq(y) = 1.0, right: sq(x - 1.0) + sq(y) = 1.0 }
         start above { x near 0.5; y near 0.5 }
         start unsaid { x near 0.5 }
-    }
-}
-
-ukcore::multibody! {
-    /// A four-bar linkage of bodies.
-    pub Linkage {
-        params { l[3] = [0.5, 2.0, 1.5], m = 1.0, span = 2.0 }
-        bodies { for i in 0..3 { planar bar[i] { mass: m, inertia: m * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
-        holonomic {
-            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
-            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
-            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
-            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
-        }
-        start open(crank = 1.0) { bar[0].angle = crank; bar[1].angle near 0.5; bar[2].angle near 1.0; dot(bar[0].angle) near 2.0 }
-        start crossed(crank = 1.0) { bar[0].angle = crank; bar[1].angle near -1.2; bar[2].angle near -2.0 }
-        start crank(crank = 1.0) { bar[0].angle = crank }
     }
 }
 
@@ -68,11 +52,14 @@ fn starts_that_leave_it_open_are_told() {
     let unsaid = elbow.branches("unsaid", &StartOptions::new()).unwrap();
     assert_eq!((unsaid.alternatives.len(), unsaid.moved.len()), (1, 0));
 
-    let linkage = Linkage::default().prepared();
-    for name in ["open", "crossed"] {
-        let found = linkage.branches(name, &StartOptions::new()).unwrap();
+    let linkage = FourBar::default().prepared();
+    for (name, options) in [
+        ("open", [("speed", 2.0)].into()),
+        ("crossed", StartOptions::new()),
+    ] {
+        let found = linkage.branches(name, &options).unwrap();
         assert!(found.alternatives.is_empty(), "{name}: {found:?}");
-        let start = linkage.start(name, &StartOptions::new()).unwrap();
+        let start = linkage.start(name, &options).unwrap();
         tests::assert_all_close(name, &found.state.q, &start.q, 1e-12);
         tests::assert_all_close(name, &found.state.v, &start.v, 1e-12);
         let most = found.moved[0].0;
@@ -88,7 +75,7 @@ fn starts_that_leave_it_open_are_told() {
 
 #[test]
 fn what_cannot_be_put_together_is_refused() {
-    let mut linkage = Linkage::default();
+    let mut linkage = FourBar::default();
     linkage.l[1] = 0.9;
     let far = linkage
         .prepared()

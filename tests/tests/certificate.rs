@@ -5,7 +5,7 @@
 
 use models::{Model, SliderCrank, UChain};
 use nalgebra::{DMatrix, DVector};
-use tests::{Check, Dense, Random, every_model, pseudo_inverse, singular_values};
+use tests::{Dense, Random, every_model, every_type, pseudo_inverse, singular_values};
 use ukcore::solver::Formula;
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Prepared, Solver, SolverOptions, State};
@@ -357,28 +357,26 @@ fn wrong_masses() {
             }
         }
     }
-    tests::every_model(&Wrong);
+    every_type(&Wrong);
 }
 
 #[test]
 fn shares_of_the_elimination_and_significances_of_rows_have_one_ceiling() {
     // A share d/G is the square of a significance.
-    struct Shares;
-    impl Check for Shares {
-        fn check<M: Model>(&self) {
-            let structure = &M::SPEC.structure;
-            if structure.straight_line {
-                let ceiling = ukcore::solver::RANK_CEILING;
-                // Without rows that could depend on each other a pivot has to be clear of rounding.
-                let least = match M::SPEC.m() {
-                    0 => ceiling.powi(6),
-                    _ => ceiling * ceiling,
-                };
-                assert_eq!(structure.solve.least_share, least, "{}", M::ID);
-            }
+    every_model(|model| {
+        let mechanism = &model.mechanism;
+        let spec = mechanism.spec();
+        let structure = &spec.structure;
+        if structure.straight_line {
+            let ceiling = ukcore::solver::RANK_CEILING;
+            // Without rows that could depend on each other a pivot has to be clear of rounding.
+            let least = match spec.m() {
+                0 => ceiling.powi(6),
+                _ => ceiling * ceiling,
+            };
+            assert_eq!(structure.solve.least_share, least, "{}", model.id);
         }
-    }
-    every_model(&Shares);
+    });
 }
 
 ukcore::multibody! {

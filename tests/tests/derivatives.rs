@@ -2,7 +2,7 @@
 //! zeros.
 
 use models::Model;
-use tests::{Check, Dense, Random, assert_close, every_model, largest};
+use tests::{Check, Dense, Random, assert_close, every_type, largest};
 use ukcore::{Mechanism, State};
 
 /// Random states and parameters tried per model.
@@ -22,7 +22,7 @@ fn random_states<M: Model>(seed: u64, mut test: impl FnMut(&M, &State)) {
     let mut random = Random::new(seed);
     for _ in 0..STATES {
         // Only states matter here, so parameters may well be such that no start exists: default ones make the state.
-        let state = random.state(&M::default(), 0.2);
+        let state = random.moved(M::default().default_start().expect("a start"), 0.2);
         test(&random.parameters(0.2), &state);
     }
 }
@@ -93,7 +93,7 @@ fn jacobian_and_rhs_by_differences() {
             });
         }
     }
-    every_model(&Differences);
+    every_type(&Differences);
 }
 
 #[test]
@@ -139,5 +139,5 @@ fn patterns_hold_all_that_is_not_zero() {
             });
         }
     }
-    every_model(&Patterns);
+    every_type(&Patterns);
 }

@@ -1,7 +1,7 @@
 //! Ensembles against runs one by one, and against themselves in other company.
 
 use models::{Model, Pendulum, UChain};
-use tests::{Check, Random, assert_all_close, every_model, largest};
+use tests::{Check, Random, assert_all_close, every_type, largest};
 use ukcore::simulate::{Member, Switching};
 use ukcore::{Ensemble, Error, Simulation, State};
 
@@ -80,7 +80,7 @@ fn members_move_as_they_do_alone() {
             assert!(arrived > 2, "{}: {arrived}", M::ID);
         }
     }
-    every_model(&Alone);
+    every_type(&Alone);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn a_result_depends_on_neither_neighbours_nor_threads() {
             assert_eq!(reversed, all, "{}: in other order", M::ID);
         }
     }
-    every_model(&Company);
+    every_type(&Company);
 }
 
 ukcore::multibody! {

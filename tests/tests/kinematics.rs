@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::linkage::FourBar;
 use tests::assert_close;
 use ukcore::{Error, Kinematics, Mechanism, State, kinematics};
 
@@ -22,25 +23,6 @@ ukcore::multibody! {
         }
         output { stroke [mm] = ram.x }
         start turned(angle = 60 [deg]) { crank.angle = angle; rod.angle near -0.1; ram.x near r * cos(angle) + l }
-    }
-}
-
-ukcore::multibody! {
-    /// Four-bar linkage: crank, coupler, rocker; non-Grashof by its defaults.
-    pub Linkage {
-        params { l[3] = [1.5, 1.0, 1.2], span = 2.0 }
-        bodies { for i in 0..3 { planar bar[i] { mass: 1.0, inertia: sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
-        holonomic {
-            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
-            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
-            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
-            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
-        }
-        start open(crank = 0.5, coupler = 0.2, rocker = 1.4) {
-            bar[0].angle = crank;
-            bar[1].angle near coupler;
-            bar[2].angle near rocker
-        }
     }
 }
 
@@ -192,8 +174,13 @@ fn a_slider_crank_by_its_ram_has_both_limits() {
 /// Where coupler and rocker are in one line, a² + d² − 2 a d cos θ = (b ± c)².
 #[test]
 fn four_bars_turn_or_swing() {
-    let swings = Linkage::default();
-    let start = swings.start("open", &[].into()).unwrap();
+    let swings = FourBar {
+        l: [1.5, 1.0, 1.2],
+        ..FourBar::default()
+    };
+    let start = swings
+        .start("open", &[("crank", 0.5), ("coupler", 0.2)].into())
+        .unwrap();
     let found = swept(&swings, &start, "bar[0].angle", -PI..PI, 360);
     let ([a, b, c], d) = (swings.l, swings.span);
     let limit = ((a * a + d * d - (b + c).powi(2)) / (2.0 * a * d)).acos();
@@ -201,8 +188,8 @@ fn four_bars_turn_or_swing() {
     for (found, expected) in found.limits.iter().zip([-limit, limit]) {
         assert_close("limit", found.drives[0].1, expected, 1e-13);
         let (coupler, rocker) = (
-            found.state.q[Linkage::BAR_ANGLE[1]],
-            found.state.q[Linkage::BAR_ANGLE[2]],
+            found.state.q[FourBar::BAR_ANGLE[1]],
+            found.state.q[FourBar::BAR_ANGLE[2]],
         );
         assert_close("stretched", (coupler - rocker).sin(), 0.0, 1e-9);
         let joints: Vec<&str> = found.constraints.iter().map(|c| &c[..1]).collect();
@@ -222,10 +209,7 @@ fn four_bars_turn_or_swing() {
         2 * (180.0 * limit / PI).floor() as usize + 1
     );
 
-    let turns = Linkage {
-        l: [0.5, 2.0, 1.5],
-        ..Linkage::default()
-    };
+    let turns = FourBar::default();
     let start = turns
         .start(
             "open",
@@ -258,7 +242,7 @@ fn four_bars_turn_or_swing() {
 /// diagonal.
 #[test]
 fn crossed_bars_stay_crossed() {
-    let mut bars = Linkage::default();
+    let mut bars = FourBar::default();
     (bars.l, bars.span) = ([1.0, 2.0, 1.0], 2.0);
     let crossed = [("crank", 1.0), ("coupler", -0.9), ("rocker", -1.0)];
     let start = bars.start("open", &crossed.into()).unwrap();

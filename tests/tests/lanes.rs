@@ -1,7 +1,7 @@
 //! Lanes against one mechanism alone: each lane holds other parameters and another state.
 
 use models::{Model, Pendulum};
-use tests::{Check, Dense, Random, assert_all_close, every_model, largest};
+use tests::{Check, Dense, Random, assert_all_close, every_type, largest};
 use ukcore::lanes::{LaneSolver, Lanes};
 use ukcore::mechanism::Terms;
 use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
@@ -105,7 +105,7 @@ fn each_lane_is_its_mechanism_alone() {
             check::<M, f64x8>();
         }
     }
-    every_model(&All);
+    every_type(&All);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Exact derivatives of the accelerations against differences of them, and against closed forms.
 
 use models::{Model, Pendulum};
-use tests::{Check, Random, assert_all_close, every_model, largest};
+use tests::{Check, Random, assert_all_close, every_type, largest};
 use ukcore::manifold::Projector;
 use ukcore::{Error, Linearisation, Mechanism, Solver, SolverOptions, State};
 
@@ -100,7 +100,7 @@ fn columns_are_differences_of_the_accelerations() {
             }
         }
     }
-    every_model(&Columns);
+    every_type(&Columns);
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
             }
         }
     }
-    every_model(&Along);
+    every_type(&Along);
 }
 
 #[test]

@@ -27,6 +27,7 @@ mod language;
 mod layers;
 mod light;
 mod linearise;
+mod linkage;
 mod machines;
 mod misses;
 mod modes;

@@ -119,7 +119,7 @@ fn forces_are_equations_29_to_34() {
     let mut random = Random::new(4);
     for _ in 0..20 {
         let fish: FishRobot = random.parameters(0.3);
-        let state = random.state(&fish, 0.5);
+        let state = random.moved(fish.default_start().expect("a start"), 0.5);
         let force = Dense::of(&fish, &state).force;
         let (q, v) = (&state.q, &state.v);
         let velocity = [v[FishRobot::X3], v[FishRobot::Y3]];

@@ -1,9 +1,9 @@
 //! What the compiler says it does, against elimination with numbers.
 
-use models::{FishRobot, Model};
+use models::FishRobot;
 use nalgebra::DMatrix;
 use std::collections::BTreeSet;
-use tests::{Check, Random, every_model};
+use tests::{Random, every_model};
 use ukcore::Mechanism;
 use ukcore::plan::Plan;
 use ukcore::spec::Pivot;
@@ -35,76 +35,79 @@ ukcore::multibody! {
 /// Any numbers at the declared places of K, eliminated in the order of the plan, are non-zero exactly where the picture says so.
 #[test]
 fn fill_is_what_elimination_fills() {
-    struct Fill;
-    impl Check for Fill {
-        fn check<M: Model>(&self) {
-            let (n, m) = (M::SPEC.n(), M::SPEC.m());
-            let s = &M::SPEC.structure;
-            let mut random = Random::new(21);
-            let mut k = DMatrix::zeros(n + m, n + m);
-            let entries = s
-                .jacobian_pattern
-                .iter()
-                .map(|(row, column)| (n + row, *column));
-            for (i, j) in s.mass_pattern.iter().copied().chain(entries) {
-                let x = 1.5 + random.signed();
-                (k[(i, j)], k[(j, i)]) = (x, x);
-            }
-            let mut seen = nonzero(&k, &(0..n + m).collect::<Vec<_>>());
-            let mut left: Vec<usize> = (0..n + m).collect();
-            for pivot in s.solve.pivots {
-                let taken = match *pivot {
-                    Pivot::Prescribed(i, row)
-                    | Pivot::Massless(i, row)
-                    | Pivot::Substituted(i, row) => vec![i, n + row],
-                    Pivot::Turned(_, j, row) => vec![j, n + row],
-                    Pivot::Coordinate(i) => vec![i],
-                    Pivot::Constraint(row) => vec![n + row],
-                };
-                if let Pivot::Turned(i, j, row) = *pivot {
-                    // The first becomes what the constraint leaves free.
-                    let mut turn = DMatrix::identity(n + m, n + m);
-                    (turn[(i, i)], turn[(j, i)]) = (k[(n + row, j)], -k[(n + row, i)]);
-                    k = turn.transpose() * k * turn;
-                }
-                left.retain(|i| !taken.contains(i));
-                let block = k.select_rows(&taken).select_columns(&taken);
-                let Some(inverse) = block.try_inverse() else {
-                    // Nothing is left of a row that follows from others whatever the state: it is left out.
-                    let redundant = s.solve.redundant.iter().any(|row| taken == [n + row]);
-                    assert!(redundant, "{}: {pivot:?}", M::ID);
-                    continue;
-                };
-                let beside = k.select_columns(&taken);
-                k -= &beside * inverse * beside.transpose();
-                seen.extend(nonzero(&k, &left));
-            }
-            assert!(
-                left.is_empty() || !s.straight_line,
-                "{}: all is eliminated",
-                M::ID
-            );
-            let picture = M::plan().system();
-            let position = |name: &str| {
-                (0..n + m)
-                    .find(|k| M::SPEC.name_at(*k) == name)
-                    .expect("a name")
+    every_model(|model| {
+        let mechanism = &model.mechanism;
+        let spec = mechanism.spec();
+        let (n, m) = (spec.n(), spec.m());
+        let s = &spec.structure;
+        let mut random = Random::new(21);
+        let mut k = DMatrix::zeros(n + m, n + m);
+        let entries = s
+            .jacobian_pattern
+            .iter()
+            .map(|(row, column)| (n + row, *column));
+        for (i, j) in s.mass_pattern.iter().copied().chain(entries) {
+            let x = 1.5 + random.signed();
+            (k[(i, j)], k[(j, i)]) = (x, x);
+        }
+        let mut seen = nonzero(&k, &(0..n + m).collect::<Vec<_>>());
+        let mut left: Vec<usize> = (0..n + m).collect();
+        for pivot in s.solve.pivots {
+            let taken = match *pivot {
+                Pivot::Prescribed(i, row)
+                | Pivot::Massless(i, row)
+                | Pivot::Substituted(i, row) => vec![i, n + row],
+                Pivot::Turned(_, j, row) => vec![j, n + row],
+                Pivot::Coordinate(i) => vec![i],
+                Pivot::Constraint(row) => vec![n + row],
             };
-            for (i, row) in picture.rows().iter().enumerate() {
-                for (j, column) in picture
-                    .columns()
-                    .iter()
-                    .enumerate()
-                    .filter(|(j, _)| *j != i)
-                {
-                    let drawn = picture.entry(i, j) != '·';
-                    let place = (position(row), position(column));
-                    assert_eq!(drawn, seen.contains(&place), "{}: {row}, {column}", M::ID);
-                }
+            if let Pivot::Turned(i, j, row) = *pivot {
+                // The first becomes what the constraint leaves free.
+                let mut turn = DMatrix::identity(n + m, n + m);
+                (turn[(i, i)], turn[(j, i)]) = (k[(n + row, j)], -k[(n + row, i)]);
+                k = turn.transpose() * k * turn;
+            }
+            left.retain(|i| !taken.contains(i));
+            let block = k.select_rows(&taken).select_columns(&taken);
+            let Some(inverse) = block.try_inverse() else {
+                // Nothing is left of a row that follows from others whatever the state: it is left out.
+                let redundant = s.solve.redundant.iter().any(|row| taken == [n + row]);
+                assert!(redundant, "{}: {pivot:?}", model.id);
+                continue;
+            };
+            let beside = k.select_columns(&taken);
+            k -= &beside * inverse * beside.transpose();
+            seen.extend(nonzero(&k, &left));
+        }
+        assert!(
+            left.is_empty() || !s.straight_line,
+            "{}: all is eliminated",
+            model.id
+        );
+        let picture = mechanism.plan().system();
+        let position = |name: &str| {
+            (0..n + m)
+                .find(|k| spec.name_at(*k) == name)
+                .expect("a name")
+        };
+        for (i, row) in picture.rows().iter().enumerate() {
+            for (j, column) in picture
+                .columns()
+                .iter()
+                .enumerate()
+                .filter(|(j, _)| *j != i)
+            {
+                let drawn = picture.entry(i, j) != '·';
+                let place = (position(row), position(column));
+                assert_eq!(
+                    drawn,
+                    seen.contains(&place),
+                    "{}: {row}, {column}",
+                    model.id
+                );
             }
         }
-    }
-    every_model(&Fill);
+    });
 }
 
 /// The places of `k` among `rows` and the same columns that are not zero.

@@ -1,10 +1,9 @@
 //! Projection of every model from states off its constraints, by the emitted elimination where there is one.
 
-use models::Model;
 use nalgebra::{DMatrix, DVector};
-use tests::{Check, every_model, largest, pseudo_inverse};
+use tests::{every_model, largest, pseudo_inverse, start};
 use ukcore::manifold::Projector;
-use ukcore::{State, assemble};
+use ukcore::{Prepared, State, assemble};
 
 /// Numbers between -1 and 1.
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
@@ -18,85 +17,81 @@ fn numbers(mut state: u64) -> impl FnMut() -> f64 {
 
 #[test]
 fn to_rounding_and_to_the_nearest_place() {
-    struct Projection;
-    impl Check for Projection {
-        fn check<M: Model>(&self) {
-            let model = M::default();
-            let start = model.default_start().expect("the default start exists");
-            let (prepared, n) = (model.prepared(), M::SPEC.n());
-            let size = largest(&start.q).max(1.0);
-            let mut projector = Projector::new(&prepared);
-            let mut next = numbers(5);
-            let mut jacobian = vec![0.0; M::SPEC.m() * n];
-            for off in [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3] {
-                for _ in 0..10 {
-                    let place = format!("{} off by {off:e}", M::ID);
-                    let (mut q, mut v) = (start.q.clone(), start.v.clone());
-                    q.iter_mut().for_each(|q| *q += off * next());
-                    v.iter_mut().for_each(|v| *v += off * next());
-                    let before = q.clone();
-                    let rough = v.clone();
-                    let position = projector.position(start.t, &mut q, &v);
-                    let position = position.unwrap_or_else(|e| panic!("{place}: {e}"));
-                    let velocity = projector.velocity(start.t, &q, &mut v);
-                    let velocity = velocity.unwrap_or_else(|e| panic!("{place}: {e}"));
-                    let (mut phi, mut rate) =
-                        (vec![0.0; M::SPEC.holonomic], vec![0.0; M::SPEC.m()]);
-                    prepared.residual(start.t, &q, &mut phi);
-                    prepared.residual_rate(start.t, &q, &v, &mut rate);
-                    assert_eq!(
-                        (largest(&phi), largest(&rate)),
-                        (position.residual, velocity.residual)
-                    );
-                    let changes: Vec<f64> = q.iter().zip(&before).map(|(a, b)| a - b).collect();
-                    assert_eq!(largest(&changes), position.norm, "{place}");
-                    // Rounding of a row: of its coordinates and of what they are multiplied by.
-                    prepared.jacobian(start.t, &q, &v, &mut jacobian);
-                    let entry = largest(&jacobian).max(1.0);
-                    let speed = largest(&v).max(1.0);
-                    let bound = 64.0 * f64::EPSILON * entry;
-                    assert!(position.residual <= bound * size, "{place}: {position:?}");
+    every_model(|model| {
+        let mechanism = &model.mechanism;
+        let spec = mechanism.spec();
+        let start = start(model);
+        let n = spec.n();
+        let size = largest(&start.q).max(1.0);
+        let mut projector = Projector::new(mechanism);
+        let mut next = numbers(5);
+        let mut jacobian = vec![0.0; spec.m() * n];
+        for off in [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3] {
+            for _ in 0..10 {
+                let place = format!("{} off by {off:e}", model.id);
+                let (mut q, mut v) = (start.q.clone(), start.v.clone());
+                q.iter_mut().for_each(|q| *q += off * next());
+                v.iter_mut().for_each(|v| *v += off * next());
+                let before = q.clone();
+                let rough = v.clone();
+                let position = projector.position(start.t, &mut q, &v);
+                let position = position.unwrap_or_else(|e| panic!("{place}: {e}"));
+                let velocity = projector.velocity(start.t, &q, &mut v);
+                let velocity = velocity.unwrap_or_else(|e| panic!("{place}: {e}"));
+                let (mut phi, mut rate) = (vec![0.0; spec.holonomic], vec![0.0; spec.m()]);
+                mechanism.residual(start.t, &q, &mut phi);
+                mechanism.residual_rate(start.t, &q, &v, &mut rate);
+                assert_eq!(
+                    (largest(&phi), largest(&rate)),
+                    (position.residual, velocity.residual)
+                );
+                let changes: Vec<f64> = q.iter().zip(&before).map(|(a, b)| a - b).collect();
+                assert_eq!(largest(&changes), position.norm, "{place}");
+                // Rounding of a row: of its coordinates and of what they are multiplied by.
+                mechanism.jacobian(start.t, &q, &v, &mut jacobian);
+                let entry = largest(&jacobian).max(1.0);
+                let speed = largest(&v).max(1.0);
+                let bound = 64.0 * f64::EPSILON * entry;
+                assert!(position.residual <= bound * size, "{place}: {position:?}");
+                assert!(
+                    velocity.residual <= bound * size * speed,
+                    "{place}: {velocity:?}"
+                );
+                // The rank-revealing solve, which assembly takes, has the same one.
+                let guess = State {
+                    t: start.t,
+                    q: q.clone(),
+                    v: rough.clone(),
+                };
+                let assembled = assemble(mechanism, guess, &[]);
+                let assembled = assembled.unwrap_or_else(|e| panic!("{place}: {e}"));
+                let bound = 1e3 * off * off + 256.0 * f64::EPSILON * speed;
+                let differences = assembled.v.iter().zip(&v).map(|(a, b)| a - b);
+                let difference = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
+                assert!(difference <= bound, "{place}: {difference:e}");
+                // Of all places on the constraints that one is nearest; the start is another one.
+                let away: Vec<f64> = before.iter().zip(&start.q).map(|(a, b)| a - b).collect();
+                let metric = Metric::at(mechanism, start.t, &before, &v);
+                let (moved, away) = (metric.norm(&changes), metric.norm(&away));
+                let rounding = 8.0 * f64::EPSILON * metric.norm(&vec![size; n]);
+                assert!(
+                    moved <= away + rounding,
+                    "{place}: {moved:e} is more than {away:e}"
+                );
+                // And no change along the constraints makes it nearer.
+                let metric = Metric::at(mechanism, start.t, &q, &v);
+                let (along, rounding) = (10.0 * off, 64.0 * f64::EPSILON / off);
+                let changes_v: Vec<f64> = v.iter().zip(&rough).map(|(a, b)| a - b).collect();
+                for (changes, size) in [(&changes, size), (&changes_v, speed)] {
+                    let share = metric.tangential(changes);
                     assert!(
-                        velocity.residual <= bound * size * speed,
-                        "{place}: {velocity:?}"
+                        share <= along + rounding * size,
+                        "{place}: {share:e} of {changes:?}"
                     );
-                    // The rank-revealing solve, which assembly takes, has the same one.
-                    let guess = State {
-                        t: start.t,
-                        q: q.clone(),
-                        v: rough.clone(),
-                    };
-                    let assembled = assemble(&prepared, guess, &[]);
-                    let assembled = assembled.unwrap_or_else(|e| panic!("{place}: {e}"));
-                    let bound = 1e3 * off * off + 256.0 * f64::EPSILON * speed;
-                    let differences = assembled.v.iter().zip(&v).map(|(a, b)| a - b);
-                    let difference = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
-                    assert!(difference <= bound, "{place}: {difference:e}");
-                    // Of all places on the constraints that one is nearest; the start is another one.
-                    let away: Vec<f64> = before.iter().zip(&start.q).map(|(a, b)| a - b).collect();
-                    let metric = Metric::at(&model, start.t, &before, &v);
-                    let (moved, away) = (metric.norm(&changes), metric.norm(&away));
-                    let rounding = 8.0 * f64::EPSILON * metric.norm(&vec![size; n]);
-                    assert!(
-                        moved <= away + rounding,
-                        "{place}: {moved:e} is more than {away:e}"
-                    );
-                    // And no change along the constraints makes it nearer.
-                    let metric = Metric::at(&model, start.t, &q, &v);
-                    let (along, rounding) = (10.0 * off, 64.0 * f64::EPSILON / off);
-                    let changes_v: Vec<f64> = v.iter().zip(&rough).map(|(a, b)| a - b).collect();
-                    for (changes, size) in [(&changes, size), (&changes_v, speed)] {
-                        let share = metric.tangential(changes);
-                        assert!(
-                            share <= along + rounding * size,
-                            "{place}: {share:e} of {changes:?}"
-                        );
-                    }
                 }
             }
         }
-    }
-    every_model(&Projection);
+    });
 }
 
 /// M and A at a state.
@@ -106,12 +101,11 @@ struct Metric {
 }
 
 impl Metric {
-    fn at<M: Model>(model: &M, t: f64, q: &[f64], v: &[f64]) -> Self {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+    fn at(mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Self {
+        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         let (mut mass, mut jacobian) = (DMatrix::zeros(n, n), DMatrix::zeros(m, n));
-        let prepared = model.prepared();
-        prepared.mass_matrix(t, q, mass.as_mut_slice());
-        prepared.jacobian(t, q, v, jacobian.as_mut_slice());
+        mechanism.mass_matrix(t, q, mass.as_mut_slice());
+        mechanism.jacobian(t, q, v, jacobian.as_mut_slice());
         Metric { mass, jacobian }
     }
 

@@ -39,7 +39,7 @@ fn along(mechanism: &Prepared, start: &State, until: f64) -> Vec<State> {
 
 /// Eq. 19 as it is printed.
 fn printed(mechanism: &Prepared, state: &State) -> Vec<f64> {
-    let dense = Dense::of_prepared(mechanism, state);
+    let dense = Dense::of(mechanism, state);
     let force = &dense.force + &dense.nonideal;
     let found = up::acceleration(&dense.mass, &force, &dense.jacobian, &dense.rhs, RANK);
     found

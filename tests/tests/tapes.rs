@@ -1,7 +1,7 @@
 //! Numbers that read emitted functions off their tapes get what compiled functions compute, to the last bit.
 
 use models::Model;
-use tests::{Check, Random, every_model};
+use tests::{Check, Random, every_type};
 use ukcore::Mechanism;
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{Scalar, Sloped};
@@ -118,7 +118,7 @@ fn tapes_of_all_models_say_what_compiled_functions_do() {
             compare(M::ID, &M::default(), &mut Random::new(71));
         }
     }
-    every_model(&Tapes);
+    every_type(&Tapes);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `verify!` finds what is planted, and finds nothing in what is right.
 
-use tests::{Check, every_model};
+use tests::{Check, every_type};
 use ukcore::mechanism::{Energy, Terms};
 use ukcore::model::{Entry, Model, StartOptions};
 use ukcore::scalar::Scalar;
@@ -16,7 +16,7 @@ fn models_are_what_they_declare() {
             assert!(found.states >= 4 && found.numbers > 100, "{found}");
         }
     }
-    every_model(&Verify);
+    every_type(&Verify);
 }
 
 ukcore::multibody! {

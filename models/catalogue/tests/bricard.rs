@@ -71,7 +71,7 @@ fn its_accelerations_are_those_of_eq_19() {
         .samples()
         .map(Sample::to_state)
     {
-        let dense = Dense::of_prepared(&mechanism, &state);
+        let dense = Dense::of(&mechanism, &state);
         let expected =
             up::acceleration(&dense.mass, &dense.force, &dense.jacobian, &dense.rhs, RANK)
                 .expect("M and A determine the motion");

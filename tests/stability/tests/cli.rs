@@ -20,6 +20,16 @@ fn run(args: &[&str]) -> Output {
 }
 
 #[test]
+fn cases_have_names_of_their_own_and_an_ordinary_value() {
+    let cases = uk_stability::cases();
+    for (i, case) in cases.iter().enumerate() {
+        assert!(cases[..i].iter().all(|c| c.id != case.id), "{}", case.id);
+        assert!(case.accurate <= case.bound, "{}", case.id);
+        assert!(case.sweep.ordinary < case.sweep.values.len());
+    }
+}
+
+#[test]
 fn some_cases_write_their_page_picture_and_tables() {
     let scratch = tempfile::tempdir().expect("directory");
     let out = scratch.path().to_str().expect("UTF-8");

@@ -1,5 +1,6 @@
 //! The straight-line solve of random mechanisms against dense elimination with pivoting.
 
+use super::random::Random;
 use super::system;
 use crate::analysis::{
     Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, orders, turned,
@@ -8,31 +9,13 @@ use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        usize::try_from((z ^ (z >> 31)) >> 33).expect("31 bits") % n
-    }
-
-    /// Between 0.3 and 1.3.
-    fn unit(&mut self) -> f64 {
-        0.3 + self.below(1_000_000) as f64 * 1e-6
-    }
-}
-
 /// Particles in a plane with links in trees and loops; some with rods between them that share inertia, some driven, some followed by
 /// massless pointers.
 fn declaration(random: &mut Random) -> String {
     let n = 2 + random.below(5);
     let mut text = format!("pub T {{ const N: usize = {n}; params {{ k = 0.7, ");
     for i in 0..n {
-        let _ = write!(text, "m{i} = {}, ", random.unit());
+        let _ = write!(text, "m{i} = {}, ", random.between(0.3, 1.3));
     }
     let pointer = random.below(3) == 0;
     let _ = write!(
@@ -88,7 +71,7 @@ fn declaration(random: &mut Random) -> String {
             let _ = write!(
                 text,
                 "loop{extra}: x[{i}] * {} + y[{j}] * x[{j}] = sin(x[{i}]) , ",
-                random.unit()
+                random.between(0.3, 1.3)
             );
             freedom -= 1;
         }
@@ -108,7 +91,12 @@ fn bodies(random: &mut Random) -> String {
     let n = 2 + random.below(4);
     let mut text = format!("pub T {{ const N: usize = {n}; params {{ r = 0.4, ");
     for i in 0..n {
-        let _ = write!(text, "m{i} = {}, j{i} = {}, ", random.unit(), random.unit());
+        let _ = write!(
+            text,
+            "m{i} = {}, j{i} = {}, ",
+            random.between(0.3, 1.3),
+            random.between(0.3, 1.3)
+        );
     }
     text += "} coords { x[N], y[N], th[N] } kinetic { ";
     for i in 0..n {
@@ -117,7 +105,7 @@ fn bodies(random: &mut Random) -> String {
             "0.5 * m{i} * (sq(dot(x[{i}])) + sq(dot(y[{i}]))) + 0.5 * j{i} * sq(dot(th[{i}])), "
         );
         if random.below(3) == 0 {
-            let (a, b) = (random.unit(), random.unit());
+            let (a, b) = (random.between(0.3, 1.3), random.between(0.3, 1.3));
             let _ = write!(
                 text,
                 "0.2 * (sq(dot(x[{i}]) - {a} * sin(th[{i}]) * dot(th[{i}])) + sq(dot(y[{i}]) + {b} * cos(th[{i}]) * dot(th[{i}]))), "
@@ -127,7 +115,7 @@ fn bodies(random: &mut Random) -> String {
     text += "} force { for i in 0..N { y[i]: -9.8 - dot(y[i]), th[i]: x[i] } } holonomic { ";
     let mut freedom = 3 * n;
     let mut pin = |text: &mut String, i: usize, j: Option<usize>, name: &str| {
-        let (a, b) = (random.unit(), random.unit());
+        let (a, b) = (random.between(0.3, 1.3), random.between(0.3, 1.3));
         let other = match j {
             Some(j) => format!("[x[{j}] + {b} * cos(th[{j}]), y[{j}] + r * sin(th[{j}])]"),
             None => format!("[{b}, r]"),
@@ -161,10 +149,14 @@ fn spatial(random: &mut Random) -> String {
     let n = 1 + random.below(3);
     let mut text = String::from("pub T { params { r = 0.3 } bodies { ");
     for i in 0..n {
-        let (m, j, k) = (random.unit(), 1.0 + random.unit(), 1.0 + random.unit());
+        let (m, j, k) = (
+            random.between(0.3, 1.3),
+            1.0 + random.between(0.3, 1.3),
+            1.0 + random.between(0.3, 1.3),
+        );
         let products = match random.below(2) {
             0 => String::new(),
-            _ => format!(", {}, 0.02, -0.03", 0.1 * random.unit()),
+            _ => format!(", {}, 0.02, -0.03", 0.1 * random.between(0.3, 1.3)),
         };
         let _ = write!(
             text,
@@ -211,7 +203,12 @@ fn linkage(random: &mut Random) -> String {
     let n = 2 + random.below(6);
     let mut text = format!("pub T {{ const N: usize = {n}; params {{ ");
     for i in 0..n {
-        let _ = write!(text, "m{i} = {}, k{i} = {}, ", random.unit(), random.unit());
+        let _ = write!(
+            text,
+            "m{i} = {}, k{i} = {}, ",
+            random.between(0.3, 1.3),
+            random.between(0.3, 1.3)
+        );
     }
     text += "} coords { x[N], y[N] } kinetic { ";
     for i in 0..n {
@@ -233,7 +230,7 @@ fn linkage(random: &mut Random) -> String {
     text += "} force { for i in 0..N { y[i]: -9.8 - dot(y[i]), x[i]: x[i] * y[i] } } holonomic { ";
     let mut freedom = 2 * n;
     for i in 0..n {
-        let (a, b) = (random.unit(), random.unit());
+        let (a, b) = (random.between(0.3, 1.3), random.between(0.3, 1.3));
         let row = match random.below(6) {
             0 => continue,
             1 => format!("slide{i}: {a} * x[{i}] + {b} * y[{i}] = sin(t), "),
@@ -402,7 +399,11 @@ impl Tally {
     ) {
         let (n, m) = (dynamics.force.len(), dynamics.rhs.len());
         for _ in 0..3 {
-            let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
+            let mut draw = |len: usize| {
+                (0..len)
+                    .map(|_| random.between(0.3, 1.3))
+                    .collect::<Vec<f64>>()
+            };
             let (q, v, residual) = (draw(n), draw(n), draw(m));
             let point = Point {
                 params: &system.defaults,

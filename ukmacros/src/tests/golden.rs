@@ -94,29 +94,39 @@ fn hash(text: &str) -> u64 {
     })
 }
 
-#[test]
-fn typeset_equations_are_well_formed() {
-    for (name, tokens) in declarations() {
-        let (code, _) = crate::expand(tokens);
-        let code = formatted(code);
-        let lines = code.lines().filter_map(|line| line.strip_prefix("/// "));
-        let lines: Vec<&str> = lines.filter(|line| line.contains("<math>")).collect();
-        assert!(!lines.is_empty(), "{name}");
-        for line in lines {
-            let mut open = Vec::new();
-            let inner = line.trim_start_matches("<p>");
-            let inner = inner.trim_end_matches("<br>").trim_end_matches("</p>");
-            for tag in inner.split('<').skip(1) {
-                let (tag, text) = tag.split_once('>').expect("a tag ends");
-                assert!(!text.contains('>'), "{name}: {line}");
-                match tag.strip_prefix('/') {
-                    Some(end) => assert_eq!(open.pop(), Some(end), "{name}: {line}"),
-                    None if tag.ends_with('/') => {}
-                    None => open.extend(tag.split(' ').next()),
-                }
-            }
-            assert!(open.is_empty(), "{name}: {line}");
+/// The lines of MathML in the documentation within the code.
+fn typeset(code: &TokenStream) -> Vec<String> {
+    let lines = |tree| match tree {
+        TokenTree::Group(group) => typeset(&group.stream()),
+        TokenTree::Literal(literal) => {
+            let text = syn::parse_str::<syn::LitStr>(&literal.to_string());
+            let text = text.map(|text| text.value()).unwrap_or_default();
+            let lines = text.lines().map(|line| line.trim().to_owned());
+            lines.filter(|line| line.contains("<math>")).collect()
         }
+        _ => Vec::new(),
+    };
+    code.clone().into_iter().flat_map(lines).collect()
+}
+
+/// Every tag that opens closes, in order.
+fn assert_typeset_equations_are_well_formed(name: &str, code: &TokenStream) {
+    let lines = typeset(code);
+    assert!(!lines.is_empty(), "{name}");
+    for line in &lines {
+        let mut open = Vec::new();
+        let inner = line.trim_start_matches("<p>");
+        let inner = inner.trim_end_matches("<br>").trim_end_matches("</p>");
+        for tag in inner.split('<').skip(1) {
+            let (tag, text) = tag.split_once('>').expect("a tag ends");
+            assert!(!text.contains('>'), "{name}: {line}");
+            match tag.strip_prefix('/') {
+                Some(end) => assert_eq!(open.pop(), Some(end), "{name}: {line}"),
+                None if tag.ends_with('/') => {}
+                None => open.extend(tag.split(' ').next()),
+            }
+        }
+        assert!(open.is_empty(), "{name}: {line}");
     }
 }
 
@@ -186,6 +196,7 @@ fn emitted_code_is_as_reviewed() {
         let code = expansion(tokens);
         let text = code.to_string();
         assert_eq!(text, expansion(tokens).to_string(), "one input, one output");
+        assert_typeset_equations_are_well_formed(name, &code);
         let words: Vec<&str> = text.split_whitespace().collect();
         let hash = hash(&words.concat());
         digest += &format!("{name:<22} {:>9}  {hash:016x}\n", words.len());

@@ -1,8 +1,25 @@
 //! No input makes the macro panic.
 
 use super::expand;
-use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+
+/// Random draws, the same at each run, from a seed: SplitMix64 (Steele, Lea & Flood 2014).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    /// One of the numbers below `n`.
+    pub(super) fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        usize::try_from((z ^ (z >> 31)) >> 33).expect("31 bits") % n
+    }
+
+    /// A number between two.
+    pub(super) fn between(&mut self, least: f64, most: f64) -> f64 {
+        least + self.below(1_000_000) as f64 * 1e-6 * (most - least)
+    }
+}
 
 /// Pieces that declarations are made of, and some that they are not.
 const PIECES: [&str; 124] = [
@@ -177,7 +194,19 @@ const UNITS: &str = "pub T { const N: usize = 2; const G: f64 = 9.81 [m/s^2]; pa
     nonideal { a[0]: friction(dot(a[0]), 1 [mm] * norm(reaction(p))) } output { o [mm] = x, w [rpm] = b.omega } integral { e [mJ] = tau * b.omega } \
     start s(p0 = 30 [deg], v = (1 + 2) [m/s]) { a[0] = p0; dot(x) near v; b.x near 1 } }";
 
+/// A source that is told where the test fails.
+struct Told<'a>(&'a str);
+
+impl Drop for Told<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("the source: {}", self.0);
+        }
+    }
+}
+
 fn survives(source: &str) {
+    let _told = Told(source);
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
         let (code, _) = crate::expand(tokens);
         assert!(!code.is_empty(), "something is always emitted");
@@ -192,47 +221,75 @@ fn the_whole_declarations_compile() {
     }
 }
 
-/// So many cases, the same at each run.
-pub(super) fn fixed(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(1),
-        ..ProptestConfig::default()
+#[test]
+fn random_pieces() {
+    let mut random = Random(1);
+    for _ in 0..400 {
+        let text: Vec<&str> = (0..random.below(40))
+            .map(|_| PIECES[random.below(PIECES.len())])
+            .collect();
+        let text = text.join(" ");
+        survives(&text);
+        survives(&format!("pub T {{ {text} }}"));
+        survives(&format!(
+            "{} pub T {{ parts {{ leg[2]: Leg }} {text} }}",
+            PIECES[112]
+        ));
+        survives(&format!(
+            "pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} holonomic {{ {text} }} }}"
+        ));
+        survives(&format!(
+            "pub T {{ coords {{ x, y }} force {{ x: {text} }} }}"
+        ));
+        survives(&format!(
+            "pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} spatial s {{ mass: m, \
+            inertia: [1, 1, 1] }} }} forces {{ {text} }} }}"
+        ));
+        survives(&format!(
+            "pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} planar c[2] {{ mass: m, \
+            inertia: 1 }} spatial s {{ mass: m, inertia: [1, 1, 1] }} }} tree {{ {text} }} }}"
+        ));
+        survives(&format!(
+            "pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {text} }} }}"
+        ));
     }
 }
 
-proptest! {
-    #![proptest_config(fixed(400))]
-
-    #[test]
-    fn random_pieces(picks in proptest::collection::vec(0usize..PIECES.len(), 0..40)) {
-        let text: Vec<&str> = picks.iter().map(|i| PIECES[*i]).collect();
-        survives(&text.join(" "));
-        survives(&format!("pub T {{ {} }}", text.join(" ")));
-        survives(&format!("{} pub T {{ parts {{ leg[2]: Leg }} {} }}", PIECES[112], text.join(" ")));
-        survives(&format!("pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} holonomic {{ {} }} }}", text.join(" ")));
-        survives(&format!("pub T {{ coords {{ x, y }} force {{ x: {} }} }}", text.join(" ")));
-        survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} spatial s {{ mass: m, \
-            inertia: [1, 1, 1] }} }} forces {{ {} }} }}", text.join(" ")));
-        survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} planar c[2] {{ mass: m, \
-            inertia: 1 }} spatial s {{ mass: m, inertia: [1, 1, 1] }} }} tree {{ {} }} }}", text.join(" ")));
-        survives(&format!("pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {} }} }}", text.join(" ")));
-    }
-
-    #[test]
-    fn damaged_declarations(at in 0usize..900, length in 0usize..12, piece in 0usize..PIECES.len()) {
+#[test]
+fn damaged_declarations() {
+    let mut random = Random(1);
+    for _ in 0..400 {
+        let (at, length, piece) = (
+            random.below(900),
+            random.below(12),
+            random.below(PIECES.len()),
+        );
         for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());
-            let (before, after): (String, String) = (characters[..at].iter().collect(), characters[end..].iter().collect());
+            let (before, after): (String, String) = (
+                characters[..at].iter().collect(),
+                characters[end..].iter().collect(),
+            );
             survives(&format!("{before}{}{after}", PIECES[piece]));
         }
     }
+}
 
-    #[test]
-    fn any_tokens(text in "\\PC{0,60}") {
+#[test]
+fn any_tokens() {
+    let mut random = Random(1);
+    for _ in 0..800 {
+        let character = |random: &mut Random| match random.below(4) {
+            0 => char::from_u32(random.below(0x11_0000) as u32)
+                .filter(|c| !c.is_control())
+                .unwrap_or('é'),
+            _ => char::from(b' ' + random.below(95) as u8),
+        };
+        let text: String = (0..random.below(60))
+            .map(|_| character(&mut random))
+            .collect();
         survives(&text);
         survives(&format!("pub T {{ coords {{ x }} mass {{ x: {text} }} }}"));
     }

@@ -15,7 +15,7 @@ use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
 use uktool::stability::{Case, Effort};
 
 /// All cases, in the order of the table.
-pub(crate) fn all() -> Vec<Case<'static>> {
+pub fn all() -> Vec<Case<'static>> {
     [
         masses::cases(),
         stiff::cases(),
