@@ -239,7 +239,7 @@ pub(crate) fn turned(
 }
 
 /// `lift` as the frames of `d` have it: their velocities given by coordinates alone, where a declaration has parentheses in them.
-pub(super) fn opened(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Option<Lift> {
+pub(crate) fn opened(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Option<Lift> {
     if lift.parts(g).is_empty() {
         return None;
     }
