@@ -2,6 +2,8 @@
 
 use ukcore::State;
 
+pub(crate) use catalogued::Bricard;
+
 tests::arm!(Arm6, 6);
 tests::arm!(Arm12, 12);
 #[cfg(feature = "large")]
@@ -15,35 +17,9 @@ tests::planar_chain!(Bodies12, Angles12, 12);
 tests::crank_and_rod!(CrankAndRod);
 tests::four_bars!(FourBars40, 40);
 
-ukcore::multibody! {
-    /// Bricard's linkage, as the crate `catalogue` has it.
-    pub(crate) Bricard {
-        params { m = 1.0, across = (1.01 / 12.0), along = (0.02 / 12.0), g = 9.81 }
-        bodies {
-            spatial r0 { mass: m, inertia: [along, across, across], centre: [0.5, 0, 0] }
-            spatial r1 { mass: m, inertia: [across, along, across], centre: [0, -0.5, 0] }
-            spatial r2 { mass: m, inertia: [across, across, along], centre: [0, 0, 0.5] }
-            spatial r3 { mass: m, inertia: [along, across, across], centre: [-0.5, 0, 0] }
-            spatial r4 { mass: m, inertia: [across, along, across], centre: [0, 0.5, 0] }
-        }
-        gravity { [0, -g, 0] }
-        holonomic {
-            p0: hinge(ground.at([0, 0, 0]), r0.at([0, 0, 0]), [0, 1, 0])
-            p1: hinge(r0.at([1, 0, 0]), r1.at([0, 0, 0]), [0, 0, 1])
-            p2: hinge(r1.at([0, -1, 0]), r2.at([0, 0, 0]), [1, 0, 0])
-            p3: hinge(r2.at([0, 0, 1]), r3.at([0, 0, 0]), [0, 1, 0])
-            p4: hinge(r3.at([-1, 0, 0]), r4.at([0, 0, 0]), [0, 0, 1])
-            p5: hinge(r4.at([0, 1, 0]), ground.at([0, 0, 1]), [1, 0, 0])
-        }
-        start cube {
-            r0.centre near [0.5, 0, 0]
-            r1.centre near [1, -0.5, 0]
-            r2.centre near [1, -1, 0.5]
-            r3.centre near [0.5, -1, 1]
-            r4.centre near [0, -0.5, 1]
-        }
-    }
-}
+/// Bricard's linkage, built here: the crate `catalogue` is optimised less.
+#[path = "../../../models/catalogue/src/bricard.rs"]
+mod catalogued;
 
 ukcore::multibody! {
     /// The U-chain with 65 links.

@@ -3,7 +3,7 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
-use super::frame::{Frame, Turned, turned};
+use super::frame::{Frame, Turned, opened, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
@@ -211,6 +211,8 @@ fn variants(
     let (coordinates, constraints) = names.split_at(held.force.len());
     let with = |more: &[String]| [coordinates, more, constraints, more].concat();
     if let Some(lift) = &held.lift {
+        let opened = opened(held, lift, &system.defaults, g);
+        let lift = opened.as_ref().unwrap_or(lift);
         let turned = turned(
             held,
             lift,

@@ -238,6 +238,21 @@ pub(crate) fn turned(
     Some((turned, Turned { frames, joints }))
 }
 
+/// `lift` as the frames of `d` have it: their velocities given by coordinates alone, where a declaration has parentheses in them.
+pub(crate) fn opened(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Option<Lift> {
+    if lift.parts(g).is_empty() {
+        return None;
+    }
+    // What is not taken leaves no trace in the order of nodes.
+    let mut tried = g.clone();
+    let whole = lift.opened(|_| true, &mut tried)?;
+    let frames = frames(d, &whole, defaults, &mut tried);
+    let velocities: Vec<Id> = whole.velocities().collect();
+    let own = frames.iter().flat_map(|frame| &frame.definitions);
+    let own: BTreeSet<Id> = own.map(|k| velocities[*k]).collect();
+    lift.opened(|id| own.contains(&id), g)
+}
+
 /// The frames among the coordinates of `d`.
 fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Frame> {
     let definitions = lift.of_coordinates();

@@ -218,6 +218,51 @@ impl Lift {
         definitions.map(|d| d.iter().map(entry).collect()).collect()
     }
 
+    /// The y that are but a part of one other, as they stand or times a number: what a declaration has in parentheses.
+    pub(super) fn parts(&self, g: &Graph) -> BTreeSet<Id> {
+        let heavy: BTreeSet<Unknown> = self.inertia.keys().flat_map(|(a, b)| [*a, *b]).collect();
+        let mut uses: BTreeMap<Id, Vec<Id>> = BTreeMap::new();
+        for (of, c) in self.definitions.values().flatten() {
+            if let Unknown::Velocity(id) = of {
+                uses.entry(*id).or_default().push(*c);
+            }
+        }
+        uses.retain(|id, uses| {
+            let once = matches!(uses[..], [c] if g.as_const(c).is_some());
+            once && !heavy.contains(&Unknown::Velocity(*id))
+        });
+        uses.into_keys().collect()
+    }
+
+    /// The same with what parts are the sums of in their places, in the y that are `wanted`; nothing if these have none.
+    pub(super) fn opened(&self, wanted: impl Fn(Id) -> bool, g: &mut Graph) -> Option<Lift> {
+        let (parts, mut lift) = (self.parts(g), self.clone());
+        for (id, definition) in &self.definitions {
+            if parts.contains(id) || !wanted(*id) {
+                continue;
+            }
+            let mut terms: Terms<Unknown> = Terms::new();
+            let mut open = vec![(1.0, definition)];
+            while let Some((factor, definition)) = open.pop() {
+                for (of, c) in definition {
+                    let part = match of {
+                        Unknown::Velocity(part) if parts.contains(part) => Some(part),
+                        _ => None,
+                    };
+                    match (part, g.as_const(*c)) {
+                        (Some(part), Some(c)) => {
+                            lift.definitions.remove(part);
+                            open.push((factor * c, &self.definitions[part]));
+                        }
+                        _ => terms.entry(*of).or_default().push((factor, *c)),
+                    }
+                }
+            }
+            lift.definitions.insert(*id, summed(terms, g));
+        }
+        (lift.definitions.len() < self.definitions.len()).then_some(lift)
+    }
+
     /// Whether T has no term in q̇_i but through the y.
     pub(super) fn has_no_inertia(&self, i: usize) -> bool {
         let own = Unknown::Coordinate(i);

@@ -33,7 +33,7 @@ pub(crate) use dynamics::{Dynamics, derive};
 pub(crate) use elimination::{Further, Straight, Task, eliminate, orders};
 pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 #[cfg(test)]
-pub(crate) use frame::{Turned, turned};
+pub(crate) use frame::{Turned, opened, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;

@@ -17,11 +17,14 @@ pub(super) struct Writing<'a> {
 }
 
 /// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
-/// `let`, and recurses on them where it writes what debuggers read. A border follows each group, for its optimiser: packing scalars into
-/// vectors takes time that grows as the square of the statements in sight.
+/// `let`, and recurses on them where it writes what debuggers read.
 const MANY: usize = 1000;
 /// Variables of a group.
 const GROUP: usize = 64;
+/// In functions of more steps, a border follows each group, for the optimiser: packing scalars into vectors takes time that grows as the
+/// square of the statements in sight. A function without borders runs faster: what crosses one waits in memory, and nothing is packed
+/// across it.
+const VAST: usize = 2000;
 
 /// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
 pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
@@ -40,7 +43,7 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let inputs = writer.inputs(model, system.constraints.len(), prepared, program);
     let purpose = |root: usize| writing.purpose(roots[root].0);
     let exits: HashSet<Id> = function.exits.iter().copied().collect();
-    let many = program.steps.len() > MANY;
+    let (many, vast) = (program.steps.len() > MANY, program.steps.len() > VAST);
     let declare = (!many).then(|| quote! { let });
     let (mut statements, mut group, mut declared) =
         (TokenStream::new(), TokenStream::new(), Vec::new());
@@ -87,7 +90,7 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
         if declared.len() >= GROUP {
             let names = std::mem::take(&mut declared);
             let names = many.then(|| quote! { let (#(#names),*); });
-            let border = many.then(|| quote! { ukcore::emitted::border(); });
+            let border = vast.then(|| quote! { ukcore::emitted::border(); });
             statements.extend(quote! { #names #group #border });
             group = TokenStream::new();
         }

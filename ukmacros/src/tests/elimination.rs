@@ -3,7 +3,7 @@
 use super::random::Random;
 use super::system;
 use crate::analysis::{
-    Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, orders, turned,
+    Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, opened, orders, turned,
 };
 use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
@@ -338,6 +338,8 @@ impl Tally {
         let none = (BTreeMap::new(), BTreeMap::new());
         let lift = dynamics.lift.as_ref();
         let g = &mut system.graph;
+        let opened = lift.and_then(|lift| opened(&dynamics, lift, &system.defaults, g));
+        let lift = opened.as_ref().or(lift);
         let extended = lift.map(|lift| {
             (
                 lift.extended(&dynamics, &none.0, &none.1, g),
@@ -469,6 +471,28 @@ fn straight_lines_solve_the_saddle_point_system() {
             && joints > 10,
         "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {rotated} rotated, {turned} turned, {joints} with joints"
     );
+}
+
+/// Bodies whose quaternions and angular velocities are written out, in parentheses, one hung on a point, the next on the first.
+#[test]
+fn quaternions_written_out_are_turned() {
+    let source = "pub T { params { m = 1.3, j[3] = [0.2, 0.5, 0.6] } \
+        coords { x[2], y[2], z[2], a[2], b[2], c[2], d[2] } \
+        let im = |i| [b[i], c[i], d[i]]; \
+        let om = |i| 2 * (a[i] * dot(im(i)) - dot(a[i]) * im(i) - cross(im(i), dot(im(i)))); \
+        let at = |i, p| [x[i], y[i], z[i]] + p + 2 * a[i] * cross(im(i), p) + 2 * cross(im(i), cross(im(i), p)); \
+        kinetic { for i in 0..2 { \
+            0.5 * m * (sq(dot(x[i])) + sq(dot(y[i])) + sq(dot(z[i]))), \
+            0.5 * (j[0] * sq(om(i)[0]) + j[1] * sq(om(i)[1]) + j[2] * sq(om(i)[2])) } } \
+        potential { for i in 0..2 { m * 9.81 * z[i] } } \
+        holonomic { \
+            for i in 0..2 { unit[i]: sq(a[i]) + sq(im(i)) = 1 } \
+            hung: at(0, [0.1, -0.3, 0.2]) = [0, 0, 0], \
+            ball: at(0, [0.2, 0.3, -0.1]) = at(1, [-0.1, 0.2, 0.3]) } }";
+    let mut tally = Tally::default();
+    tally.check(source, &mut Random(20_132));
+    let Tally { solved, turned, .. } = tally;
+    assert!(turned > 0 && solved > turned, "{tally:?}");
 }
 
 /// More of them, bodies in space above all: `HUNT=1000 cargo test -p ukmacros hunt -- --ignored --nocapture`.
