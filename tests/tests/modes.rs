@@ -204,3 +204,74 @@ fn bodies_in_space_have_shapes() {
         assert_close("x", shape(Hinged::ROD_X) / turn, 2.0 * 0.4, 1e-6);
     }
 }
+
+ukcore::multibody! {
+    /// Peaucellier's inversor, whose point `p` goes straight: seven rods, and nothing that acts.
+    pub Inversor {
+        params { long = 1.0, short = 0.4, e = 0.4 }
+        coords { c[2], u[2], v[2], p[2] }
+        mass { c: 1.0, u: 0.7, v: 1.3, p: 2.0 }
+        let o = [-e, 0.0];
+        holonomic {
+            crank: sq(c) = sq(e)
+            ou: sq(u - o) = sq(long), ov: sq(v - o) = sq(long)
+            cu: sq(u - c) = sq(short), cv: sq(v - c) = sq(short)
+            pu: sq(u - p) = sq(short), pv: sq(v - p) = sq(short)
+        }
+        start turned(angle = 0.0) {
+            [c[0], c[1]] near e * [cos(angle), sin(angle)];
+            u near [0.5, 0.4]; v near [0.5, -0.4]; p near [0.7, 0.0]
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Two masses on a line with a spring between them, which nothing holds, and a third one in syrup with a weak spring.
+    pub Adrift {
+        params { k = 3.0, weak = 1e-8, c = 2.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 2.0, z: 1.0 }
+        potential { 0.5 * k * sq(x - y - 1.0), 0.5 * weak * sq(z) }
+        force { z: -c * dot(z) }
+    }
+}
+
+/// A displacement that costs nothing has an eigenvalue of exactly 0, twice, whatever rounding makes of it; what is slow has not.
+#[test]
+fn what_costs_nothing_is_told_from_what_is_slow() {
+    let inversor = Inversor::default();
+    for angle in [0.0, 0.4, -1.0] {
+        let start = inversor
+            .start("turned", &[("angle", angle)].into())
+            .unwrap();
+        let found = ukcore::equilibrium(&inversor, &start, &[]).unwrap();
+        assert_eq!(found.stability, ukcore::Stability::Neutral, "{angle}");
+        assert_all_close("where it was", &found.state.q, &start.q, 1e-14);
+        let modes = modes(&inversor, &found.state).unwrap();
+        let values: Vec<_> = modes.iter().map(|m| (m.growth, m.frequency)).collect();
+        assert_eq!(values, [(0.0, 0.0); 2], "{angle}");
+    }
+    for (k, weak, c) in [(3.0, 1e-8, 2.0), (3e-20, 1e-28, 2e-10), (3e14, 1e6, 2e7)] {
+        let adrift = Adrift { k, weak, c };
+        let found = modes(&adrift, &rest(&[1.0, 0.0, 0.0])).unwrap();
+        let values: Vec<_> = found.iter().map(|m| [m.growth, m.frequency]).collect();
+        // z: λ² + c λ + weak = 0.
+        let fast = -0.5 * (c + (c * c - 4.0 * weak).sqrt());
+        let expected = [
+            [fast, 0.0],
+            [weak / fast, 0.0],
+            [0.0; 2],
+            [0.0; 2],
+            [0.0, (1.5 * k).sqrt()],
+        ];
+        assert_eq!(values.len(), expected.len(), "{values:?}");
+        for (found, expected) in values.iter().zip(&expected) {
+            for (found, expected) in found.iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() <= 1e-7 * expected.abs(),
+                    "{values:?}"
+                );
+            }
+        }
+    }
+}
