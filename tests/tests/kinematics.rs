@@ -212,6 +212,9 @@ fn a_start_may_be_beside_a_dead_centre() {
         let start = ukcore::assemble(&press, guess, &["crank.angle"]).unwrap();
         let dead = r * centre.cos() + l;
         for to in [dead - away, dead + away] {
+            // The dead centre itself is no position of the sweep.
+            let at = swept(&press, &start, "ram.x", dead - away..dead, 4);
+            assert_eq!((at.postures.len(), at.limits.len()), (4, 1), "{angle}");
             let found = swept(&press, &start, "ram.x", dead - 0.5 * away..to, 20);
             let reached = found.coordinate("ram.x").unwrap();
             let passes = (to - dead) * away > 0.0;

@@ -221,6 +221,11 @@ pub(crate) fn decompose(
 ) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
     measure(&mut rows, units);
     normalise(&mut rows);
+    pivoted(&rows)
+}
+
+/// [`decompose`] of rows that are measured and of the lengths that they count with.
+pub(crate) fn pivoted(rows: &DMatrix<f64>) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
     let decomposed = rows.transpose().col_piv_qr();
     let r = decomposed.r();
     let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());

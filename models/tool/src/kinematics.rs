@@ -83,7 +83,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
     let speed = args.speed.as_ref().map(|speed| {
-        let speed = speed.si_rate(unit(&ready, name)?);
+        let speed = speed.si_rate(unit(&ready, name));
         speed.map_err(|e| Failure::Usage(format!("`--speed`: {e}")))
     });
     let speed = speed.transpose()?;
@@ -168,13 +168,14 @@ fn over(ready: &Ready<'_>, name: &str, asked: &[String]) -> Result<Curves, Failu
     Curves::new(&ready.mechanism, &curves)
 }
 
-/// The unit of a coordinate, or of the time.
-fn unit(ready: &Ready<'_>, name: &str) -> Result<&'static str, Failure> {
+/// The unit of a coordinate, or of the time; none of what is neither, which the library has a word for.
+fn unit(ready: &Ready<'_>, name: &str) -> &'static str {
     let spec = ready.mechanism.spec();
-    if name == "t" && !spec.coords.contains(&"t") {
-        return Ok("s");
+    match (name, spec.coordinate_index(name)) {
+        (_, Ok(j)) => spec.coordinate_unit(j),
+        ("t", Err(_)) => "s",
+        _ => "",
     }
-    Ok(spec.coordinate_unit(spec.coordinate_index(name)?))
 }
 
 /// The drives as numbers, and how many intervals there are.
@@ -182,7 +183,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
     let mut ranges = Vec::new();
     let mut intervals = INTERVALS;
     for (k, drive) in asked.iter().enumerate() {
-        let unit = unit(ready, &drive.name)?;
+        let unit = unit(ready, &drive.name);
         let si = |quantity: &Quantity| {
             let value = quantity.si(unit);
             value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))

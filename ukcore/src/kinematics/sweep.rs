@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 
 use super::Limit;
-use super::curve::{Curve, End, Place, Rows};
+use super::curve::{AT, Curve, End, Place, Rows};
 use crate::assemble::State;
 use crate::diagnosis::quoted;
 use crate::error::Error;
@@ -147,6 +147,7 @@ impl<'a> Sweep<'a> {
             }
             let path = curve.follow(begin, until);
             curve.gauge(&path);
+            let limit = (path.end == End::Turned).then(|| path.last().s());
             for (index, b) in path.places.iter().enumerate().skip(1) {
                 let within = |k: usize| {
                     if up {
@@ -156,6 +157,9 @@ impl<'a> Sweep<'a> {
                     }
                 };
                 while let Some(k) = wanted.pop_if(|k| within(*k)) {
+                    if limit.is_some_and(|limit| (part(k) - limit).abs() <= AT) {
+                        continue;
+                    }
                     postures.extend(curve.posture(&path, index - 1, part(k), speed)?);
                 }
             }
