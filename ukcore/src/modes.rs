@@ -308,13 +308,19 @@ fn tangent(
 /// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
 fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
-    // Beside the eigenvalue, by what rounding leaves unknown of it, so that nothing is divided by 0.
-    let aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
-    let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
-    for k in 0..n {
-        shifted[(k, k)] -= value + aside;
-    }
-    let solver = shifted.lu();
+    // Beside the eigenvalue, by what rounding leaves unknown of it or a little more, so that nothing is divided by 0.
+    let mut aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
+    let solver = loop {
+        let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
+        for k in 0..n {
+            shifted[(k, k)] -= value + aside;
+        }
+        let solver = shifted.lu();
+        if solver.is_invertible() || !aside.is_finite() {
+            break solver;
+        }
+        aside *= 2.0;
+    };
     // Not at a right angle to any eigenvector that has a name.
     let mut vector = DVector::from_fn(n, |k, _| Complex::new(1.0 + (k as f64).sin(), 0.0));
     for _ in 0..3 {
