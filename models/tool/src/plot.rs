@@ -206,6 +206,7 @@ impl Chart {
             .light_line_style(TRANSPARENT)
             .bold_line_style(GRID.stroke_width(PARTS))
             .axis_style(FRAME.stroke_width(PARTS))
+            .set_all_tick_mark_size(5 * PARTS)
             .label_style((FONT, TICK_SIZE * PARTS))
             .axis_desc_style((FONT, LABEL_SIZE * PARTS))
             .x_desc(self.x_label.as_str())
