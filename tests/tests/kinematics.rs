@@ -110,7 +110,8 @@ fn a_slider_crank_by_its_crank() {
                 ukcore::assemble(&press, guess, &["crank.angle"]).unwrap()
             }
         };
-        let found = swept(&press, &start, "crank.angle", -PI..TAU, 60).at_speed(2.0);
+        let found = swept(&press, &start, "crank.angle", -PI..TAU, 60);
+        let found = found.at_speed(2.0).unwrap();
         assert_eq!((found.postures.len(), found.limits.len()), (61, 0));
         let stroke = found.output("stroke").unwrap();
         let [v, a] = [
@@ -169,6 +170,103 @@ fn a_slider_crank_by_its_ram_has_both_limits() {
         assert_close("angle", angle.cos(), cosine, 1e-12);
         assert!(angle > 0.0);
     }
+}
+
+/// However near to a dead centre the start is, it decides on which side of it the crank stays.
+#[test]
+fn a_start_may_be_beside_a_dead_centre() {
+    let press = Press::default();
+    let (r, l) = (press.r, press.l);
+    for (centre, beside) in [
+        (0.0, 1e-2),
+        (0.0, -1e-4),
+        (PI, 1e-4),
+        (0.0, 1e-5),
+        (PI, -1e-6),
+        (0.0, 1e-6),
+    ] {
+        let angle: f64 = centre + beside;
+        let away = 0.02 * angle.cos().signum();
+        let mut guess = press.start("turned", &[("angle", 1.0)].into()).unwrap();
+        guess.q[Press::CRANK_ANGLE] = angle;
+        guess.q[Press::ROD_ANGLE] = -beside;
+        guess.q[Press::RAM_X] = r * angle.cos() + l;
+        let start = ukcore::assemble(&press, guess, &["crank.angle"]).unwrap();
+        let dead = r * centre.cos() + l;
+        for to in [dead - away, dead + away] {
+            // The dead centre itself is no position of the sweep.
+            let at = swept(&press, &start, "ram.x", dead - away..dead, 4);
+            assert_eq!((at.postures.len(), at.limits.len()), (4, 1), "{angle}");
+            let found = swept(&press, &start, "ram.x", dead - 0.5 * away..to, 20);
+            let reached = found.coordinate("ram.x").unwrap();
+            let passes = (to - dead) * away > 0.0;
+            assert_eq!(found.limits.len(), usize::from(passes), "{angle}");
+            assert_eq!(reached.len(), if passes { 7 } else { 21 }, "{angle}");
+            if passes {
+                assert_close("limit", found.limits[0].drives[0].1, dead, 1e-14);
+            }
+            for (x, crank) in reached.iter().zip(found.coordinate("crank.angle").unwrap()) {
+                let cosine = (x * x + r * r - l * l) / (2.0 * r * x);
+                assert_close("angle", crank.cos(), cosine, 1e-12);
+                assert_eq!((crank - centre).signum(), beside.signum(), "{angle}");
+            }
+        }
+    }
+}
+
+/// Velocities are those in time, whichever way it is swept and wherever the sweep begins.
+#[test]
+fn time_goes_forward_in_all_sweeps() {
+    let arm = Arm::default().prepared();
+    for t in [0.0, 0.25, 2.0, 3.0] {
+        let guess = State {
+            t,
+            q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
+            v: vec![0.0; 5],
+        };
+        let start = ukcore::assemble(&arm, guess, &["a", "b"]).unwrap();
+        let sweep = |range| kinematics(&arm, &start, &[("t", range)], &["a", "b"], 8).unwrap();
+        let (on, back) = (sweep(0.0..2.0), sweep(2.0..0.0));
+        assert_eq!((on.postures.len(), back.postures.len()), (9, 9));
+        for (k, (on, back)) in on
+            .postures
+            .iter()
+            .zip(back.postures.iter().rev())
+            .enumerate()
+        {
+            assert_eq!(on.state.t, 0.25 * k as f64);
+            assert_close("t", back.state.t, on.state.t, 1e-15);
+            for posture in [on, back] {
+                let rate = 1.5 * (3.0 * on.state.t).cos();
+                assert_close("dot(w)", posture.state.v[4], rate, 1e-12);
+                let turn = -4.5 * (3.0 * on.state.t).sin();
+                assert_close("ddot(w)", posture.acceleration[4], turn, 1e-11);
+                assert_eq!((posture.state.q[0], posture.state.q[1]), (0.3, 0.5));
+            }
+        }
+        // What the motion takes agrees with what is declared.
+        assert!(back.efforts(&["a", "b"]).is_ok());
+        refused(on.at_speed(2.0), "`speed` is not free where `t` is a drive");
+    }
+    let turn = kinematics(
+        &arm,
+        &ukcore::assemble(
+            &arm,
+            State {
+                t: 0.0,
+                q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
+                v: vec![0.0; 5],
+            },
+            &[],
+        )
+        .unwrap(),
+        &[("a", 0.0..1.0), ("t", 0.5..0.5)],
+        &["b"],
+        4,
+    )
+    .unwrap();
+    assert_close("unit speed", turn.velocity("a").unwrap()[2], 1.0, 1e-14);
+    refused(turn.at_speed(f64::NAN), "not a finite number: speed");
 }
 
 /// Where coupler and rocker are in one line, a² + d² − 2 a d cos θ = (b ± c)².
@@ -365,8 +463,8 @@ fn several_freedoms_are_held_or_driven_together() {
         let part = k as f64 / 50.0;
         let (a, b, t) = (TAU * part, 1.0 - 2.0 * part, 2.0 + part);
         assert_close("t", posture.state.t, t, 1e-14);
-        // b goes by 1 in a second, so a by π and t by 1/2.
-        let (va, vb, vt) = (PI, -1.0, 0.5);
+        // All is done in the second in which the time goes on by 1.
+        let (va, vb, vt) = (TAU, -2.0, 1.0);
         let (x, vx) = (
             2.0 * a.cos() + (a + b).cos(),
             -2.0 * a.sin() * va - (a + b).sin() * (va + vb),
@@ -396,7 +494,7 @@ fn what_does_not_decide_a_motion_is_refused() {
     };
     refused(
         ask(&at(1.0), &[("crank.x", 0.0..1.0)], &[]),
-        "`crank.x` would stand still while `ram.x` moves",
+        "`drives` do not move: `shaft.x` holds `crank.x` wherever the mechanism goes; drive `",
     );
     refused(
         ask(&at(0.0), &[("ram.x", 0.3..0.4)], &[]),
@@ -413,6 +511,10 @@ fn what_does_not_decide_a_motion_is_refused() {
     refused(
         ask(&at(1.0), &[("ram.x", 0.3..0.3)], &[]),
         "`ram.x` goes from 0.3 to 0.3",
+    );
+    refused(
+        ask(&at(1.0), &[("stroke", 0.3..0.4)], &[]),
+        "`drives` have `stroke`, an output: declare a coordinate for it",
     );
     refused(
         ask(&at(1.0), &[("ran.x", 0.3..0.4)], &[]),

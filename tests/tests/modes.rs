@@ -204,3 +204,90 @@ fn bodies_in_space_have_shapes() {
         assert_close("x", shape(Hinged::ROD_X) / turn, 2.0 * 0.4, 1e-6);
     }
 }
+
+ukcore::multibody! {
+    /// Peaucellier's inversor, whose point `p` goes straight: seven rods, and nothing that acts.
+    pub Inversor {
+        params { long = 1.0, short = 0.4, e = 0.4 }
+        coords { c[2], u[2], v[2], p[2] }
+        mass { c: 1.0, u: 0.7, v: 1.3, p: 2.0 }
+        let o = [-e, 0.0];
+        holonomic {
+            crank: sq(c) = sq(e)
+            ou: sq(u - o) = sq(long), ov: sq(v - o) = sq(long)
+            cu: sq(u - c) = sq(short), cv: sq(v - c) = sq(short)
+            pu: sq(u - p) = sq(short), pv: sq(v - p) = sq(short)
+        }
+        start turned(angle = 0.0) {
+            [c[0], c[1]] near e * [cos(angle), sin(angle)];
+            u near [0.5, 0.4]; v near [0.5, -0.4]; p near [0.65, 1.05 * tan(angle / 2)]
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Two masses on a line with a spring between them, which nothing holds.
+    pub Adrift {
+        params { k = 3.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 2.0 }
+        potential { 0.5 * k * sq(x - y - 1.0) }
+    }
+}
+
+ukcore::multibody! {
+    /// A mass in syrup on a weak spring, and one on a stiff spring.
+    pub Syrup {
+        params { k = 3.0, weak = 1e-8, c = 2.0 }
+        coords { w, z }
+        mass { w: 1.0, z: 1.0 }
+        potential { 0.5 * k * sq(w), 0.5 * weak * sq(z) }
+        force { z: -c * dot(z) }
+    }
+}
+
+/// A displacement that costs nothing has an eigenvalue of exactly 0, twice, whatever rounding makes of it; what is slow has not.
+#[test]
+fn what_costs_nothing_is_told_from_what_is_slow() {
+    let inversor = Inversor::default();
+    for angle in [0.0, 0.4, -0.7] {
+        let start = inversor
+            .start("turned", &[("angle", angle)].into())
+            .unwrap();
+        let found = ukcore::equilibrium(&inversor, &start, &[]).unwrap();
+        assert_eq!(found.stability, ukcore::Stability::Neutral, "{angle}");
+        assert_all_close("where it was", &found.state.q, &start.q, 1e-14);
+        let modes = modes(&inversor, &found.state).unwrap();
+        let values: Vec<_> = modes.iter().map(|m| (m.growth, m.frequency)).collect();
+        assert_eq!(values, [(0.0, 0.0); 2], "{angle}");
+    }
+    let values = |modes: Vec<Mode>| -> Vec<[f64; 2]> {
+        modes.iter().map(|m| [m.growth, m.frequency]).collect()
+    };
+    // In seconds, in years, in nanoseconds.
+    for pace in [1.0_f64, 1e-10, 1e9] {
+        let k = 3.0 * pace * pace;
+        let adrift = modes(Adrift { k }, &rest(&[1.0, 0.0])).unwrap();
+        let adrift = values(adrift);
+        assert_eq!(adrift[..2], [[0.0; 2]; 2]);
+        assert_all_close(
+            "vibration",
+            &adrift[2],
+            &[0.0, pace * 4.5_f64.sqrt()],
+            1e-12 * pace,
+        );
+        let (weak, c) = (1e-8 * pace * pace, 2.0 * pace);
+        let found = values(modes(Syrup { k, weak, c }, &rest(&[0.0; 2])).unwrap());
+        // λ² + c λ + weak = 0, of which the smaller root is the other one's share of the product.
+        let fast = -0.5 * (c + (c * c - 4.0 * weak).sqrt());
+        assert_eq!(
+            (found.len(), found[1][1], found[2][0]),
+            (3, 0.0, 0.0),
+            "{found:?}"
+        );
+        let told = [found[0][0], found[1][0], found[2][1]];
+        for (told, expected) in told.into_iter().zip([fast, weak / fast, k.sqrt()]) {
+            assert!((told / expected - 1.0).abs() < 1e-7, "{found:?}");
+        }
+    }
+}

@@ -95,7 +95,7 @@ spatial! {
     Driven { j: hinge(a.at(u), b.at([0.1, 0.4, -0.3]), u) drive: drive(a, b, u, 2 * t) } {} force (reaction(j))
         moment (reaction(j.tilt0) * cross(b.along(normalise(u)), a.along(normals(u)[0]))
             + reaction(j.tilt1) * cross(b.along(normalise(u)), a.along(normals(u)[1]))
-            + reaction(drive) * cross(b.along(normals(u)[1]), a.along(cos(2 * t) * normals(u)[0] + sin(2 * t) * normals(u)[1]))) whole (moment(j) + moment(drive))
+            + reaction(drive) * cross(b.along(normals(u)[0]), a.along(cos(2 * t) * normals(u)[1] - sin(2 * t) * normals(u)[0]))) whole (moment(j) + moment(drive))
     // Forces act at the point of contact, r below the centre of the disc in its plane.
     Rolling { j: disc(b.at([0.1, 0.4, -0.3]), u, r) } { k: rolls(b.at([0.1, 0.4, -0.3]), u, r) } force (reaction(j) + reaction(k))
         moment (cross(r * normalise(b.along(normalise(u))[2] * b.along(normalise(u)) - [0, 0, 1]), reaction(j) + reaction(k))) whole (moment(j) + moment(k))

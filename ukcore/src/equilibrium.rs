@@ -3,7 +3,8 @@
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
 //! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have
 //! a potential the search goes downhill: curvatures count by their magnitude, so it ends where the potential is least nearby, unless it
-//! starts where nothing moves it. Else r alone tells.
+//! starts where nothing moves it. Else r alone tells. Steps are so short that the constraints are followed: the mechanism rests in the
+//! branch in which it starts.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,7 +12,7 @@ use crate::assemble::{Held, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space_holding, units};
+use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -42,12 +43,17 @@ const DIFFERENCE: f64 = 1e-6;
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
 const NOWHERE: f64 = 1e-12;
+/// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
+/// it was asked to be: else it may have come to another branch.
+const BENT: f64 = 0.5;
+const LONGER: f64 = 2.0;
 /// A stiffness below this part of the largest one is rounding; with coordinates held, of its differences.
 const FLAT: f64 = 1e-13;
 const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 
-/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time. Coordinates named in `hold` keep the
-/// value of the guess, whatever force that takes; what becomes of displacements is then told by the stiffness alone.
+/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time, in the branch of these in which it
+/// is. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of displacements is then told by
+/// the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
@@ -87,8 +93,9 @@ pub fn equilibrium(
                 stability,
             });
         }
-        match search.moved(&here, &(step / (1.0 + damping))) {
-            Ok(there) if there.improves_on(&here) => {
+        let step = step / (1.0 + damping);
+        match search.moved(&here, &step) {
+            Ok(there) if there.improves_on(&here) && search.follows(&here, &step, &there) => {
                 here = there;
                 damping *= 0.1;
                 if damping < 0.1 {
@@ -233,6 +240,16 @@ impl Search {
         self.place(state)
     }
 
+    /// Whether the constraints lead from one place to the other by `step`.
+    fn follows(&self, from: &Place, step: &DVector<f64>, to: &Place) -> bool {
+        let pairs = to.state.q.iter().zip(&from.state.q).zip(from.units.iter());
+        let chord = pairs.map(|((to, from), unit)| (to - from) / unit);
+        let chord = DVector::from_iterator(from.units.len(), chord);
+        let off = (&chord - &from.basis * from.basis.tr_mul(&chord)).norm();
+        let rounding = NOWHERE * self.size;
+        off <= BENT * chord.norm() + rounding && chord.norm() <= LONGER * step.norm() + rounding
+    }
+
     /// K at `here`: where nothing is held by exact derivatives of the accelerations, which are those of r where these vanish; else by
     /// differences.
     fn stiffness(&mut self, here: &Place) -> Result<DMatrix<f64>, Error> {
@@ -263,8 +280,7 @@ impl Search {
     fn stability(&self, state: &State, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
         if self.held.is_empty() {
             let modes = modes(&self.mech, state)?;
-            let least = Mode::STILL * modes.iter().map(Mode::size).fold(0.0, f64::max);
-            if modes.iter().any(|mode| mode.growth > least) {
+            if modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);
             }
         }

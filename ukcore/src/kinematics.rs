@@ -29,6 +29,8 @@ pub struct Kinematics {
     pub postures: Vec<Posture>,
     /// Where the drive cannot go on, in the order of the sweep; none if it is all done.
     pub limits: Vec<Limit>,
+    /// Whether velocities are those in time, since that is a drive.
+    timed: bool,
 }
 
 /// A limit of motion: a dead centre of the drive, at which it stands still while the mechanism moves.
@@ -47,10 +49,10 @@ pub struct Limit {
 }
 
 /// Positions, velocities and accelerations of `mechanism` where each of the `drives` goes evenly from one value to another, all together,
-/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; where the first one goes
-/// at unit speed the velocities are those found. Coordinates named in `hold` keep the value that they have at `start`, from where the
-/// constraints are followed, first to the begin of the sweep: so the start decides in which branch the mechanism is. Constraints that move
-/// with time do so only if `t` is a drive.
+/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`. Velocities and accelerations are those in time where
+/// `t` is a drive, also if it is swept backward; else those where the first drive goes at unit speed from the begin of its range to the
+/// end. Coordinates named in `hold` keep the value that they have at `start`, from where the constraints are followed, first to the begin
+/// of the sweep: so the start decides in which branch the mechanism is. Constraints that move with time do so only if `t` is a drive.
 ///
 /// Singular positions in which branches cross are passed. Where the drive itself comes to a dead centre, at both ends of the sweep if need
 /// be, that is a [`Limit`].
@@ -58,8 +60,8 @@ pub struct Limit {
 /// # Errors
 /// - [`Error::UnknownName`] with the nearest name; [`Error::NonFinite`]; what [`assemble`](crate::assemble()) reports for `start`.
 /// - [`Error::InvalidSetting`] where drives and held coordinates are not as many as the degrees of freedom, where there are nonholonomic
-///   constraints, since these leave the position to the way on which it is reached, and where the start is a dead centre or a singular
-///   position, or the begin of the sweep is not reached.
+///   constraints, since these leave the position to the way on which it is reached; where a drive is an output, or is held wherever the
+///   mechanism goes; and where the start is a dead centre or a singular position, or the begin of the sweep is not reached.
 /// - [`Error::At`] with [`Error::InvalidSetting`] where positions do not go on smoothly; with [`Error::OffConstraint`] where constraints
 ///   that imply each other come to contradict each other.
 pub fn kinematics(
@@ -96,6 +98,7 @@ pub fn kinematics(
     };
     let (postures, limits) = sweep.postures(intervals)?;
     Ok(Kinematics {
+        timed: sweep.timed().is_some(),
         postures,
         limits,
         mechanism: mech,
@@ -105,14 +108,28 @@ pub fn kinematics(
 impl Kinematics {
     /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations
     /// to its square.
-    #[must_use]
-    pub fn at_speed(mut self, speed: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::InvalidSetting`] where `t` is a drive, which prescribes all velocities; [`Error::NonFinite`].
+    pub fn at_speed(mut self, speed: f64) -> Result<Self, Error> {
+        if self.timed {
+            let reason = "is not free where `t` is a drive: velocities are those in time, and the constraints say how fast all moves with it; \
+                          leave it out";
+            return Err(Error::InvalidSetting {
+                what: "speed",
+                reason: reason.to_owned(),
+            });
+        }
+        if !speed.is_finite() {
+            let what = vec!["speed".to_owned()];
+            return Err(Error::NonFinite { what });
+        }
         for posture in &mut self.postures {
             posture.state.v.iter_mut().for_each(|v| *v *= speed);
             let accelerations = posture.acceleration.iter_mut();
             accelerations.for_each(|a| *a *= speed * speed);
         }
-        self
+        Ok(self)
     }
 
     fn each(&self, name: &str, of: impl Fn(&Posture, usize) -> f64) -> Result<Vec<f64>, Error> {

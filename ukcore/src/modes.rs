@@ -20,6 +20,8 @@ pub(crate) const INDEPENDENT: f64 = 1e-9;
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
 /// was found by iteration.
 const REST: f64 = 1e-9;
+/// What rounding may have changed in the linearised motion, as a part of it.
+const ROUNDING: f64 = 1e-14;
 
 /// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,9 +37,6 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// An eigenvalue below this part of the largest one is that of a double zero, which is known to the root of rounding.
-    pub const STILL: f64 = 1e-7;
-
     /// The magnitude of its eigenvalue, 1/s.
     #[must_use]
     pub fn size(&self) -> f64 {
@@ -53,8 +52,9 @@ impl Mode {
 }
 
 /// The modes of `mechanism` about `state`, slowest first: by frequency, then by growth. There are as many eigenvalues as the mechanism has
-/// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. An eigenvalue of 0, as of a body
-/// that nothing holds, comes double and is known to the root of rounding.
+/// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. What rounding cannot tell from 0
+/// is 0: the growth of a vibration that lasts, and both parts of an eigenvalue of 0, as of a body that nothing holds, which comes double,
+/// so that the root of rounding counts.
 ///
 /// # Errors
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
@@ -66,53 +66,71 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let units = units(&mass_matrix(&mech, state));
     let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
-    let tangent = tangent(&mech, state, &jacobian, &units);
+    let (flow, pace) = flow(&found, &units);
+    let tangent = tangent(&mech, state, &jacobian, &units, pace);
     if tangent.ncols() == 0 {
         return Ok(Vec::new());
     }
-    let mut flow = DMatrix::zeros(2 * n, 2 * n);
-    for i in 0..n {
-        flow[(i, n + i)] = 1.0;
-        for j in 0..n {
-            let scale = units[j] / units[i];
-            flow[(n + i, j)] = scale * found.by_position[j * n + i];
-            flow[(n + i, n + j)] = scale * found.by_velocity[j * n + i];
-        }
-    }
-    // Where a coordinate has hardly any inertia, as one of a quaternion near its zero, rounding is large in its own units: what holonomic
-    // constraints do not allow is taken off once more.
-    let holonomic = jacobian.rows(0, mech.spec().holonomic).into_owned();
-    let allowed = null_space(holonomic, &DVector::repeat(n, 1.0));
+    let rounding = ROUNDING * flow.norm();
     let reduced = tangent.tr_mul(&(flow * &tangent));
-    let values = reduced.complex_eigenvalues();
-    let told = values.iter().filter(|z| z.im >= 0.0);
-    let mut modes: Vec<Mode> = told
-        .map(|value| {
-            let part = eigenvector(&reduced, *value);
-            let shape = tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part;
-            let leader = shape.icamax();
-            let moved = shape.zip_map(&units, |x, unit| x * unit);
-            let moved =
-                [moved.map(|x| x.re), moved.map(|x| x.im)].map(|x| &allowed * allowed.tr_mul(&x));
-            let moved = moved[0].zip_map(&moved[1], Complex::new);
-            let most = moved[leader];
-            let relative = |x: &Complex<f64>| {
-                let share = x / most;
-                [share.re, share.im]
-            };
-            Mode {
-                growth: value.re,
-                frequency: value.im,
-                shape: moved.iter().map(relative).collect(),
-                leader: mech.spec().coords[leader],
+    let transposed = reduced.transpose();
+    let mut modes: Vec<Mode> = Vec::new();
+    for value in reduced.complex_eigenvalues().iter() {
+        let part = eigenvector(&reduced, *value);
+        // It changes by as much as the matrix does, over the product of its left and its right eigenvector.
+        let known = eigenvector(&transposed, value.conj()).dotc(&part).norm();
+        let told = |x: f64| {
+            if x.abs() * known <= rounding {
+                0.0
+            } else {
+                pace * x
             }
-        })
-        .collect();
+        };
+        let (growth, frequency) = match told(value.norm()) {
+            0.0 => (0.0, 0.0),
+            _ => (told(value.re), told(value.im)),
+        };
+        if frequency < 0.0 {
+            continue;
+        }
+        let shape = tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part;
+        let leader = shape.icamax();
+        let moved = shape.zip_map(&units, |x, unit| x * unit);
+        let relative = |x: &Complex<f64>| {
+            let share = x / moved[leader];
+            [share.re, share.im]
+        };
+        modes.push(Mode {
+            growth,
+            frequency,
+            shape: moved.iter().map(relative).collect(),
+            leader: mech.spec().coords[leader],
+        });
+    }
     modes.sort_by(|a, b| {
         let by_frequency = a.frequency.total_cmp(&b.frequency);
         by_frequency.then(a.growth.total_cmp(&b.growth))
     });
     Ok(modes)
+}
+
+/// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
+fn flow(found: &Linearisation, units: &DVector<f64>) -> (DMatrix<f64>, f64) {
+    let n = units.len();
+    let scaled =
+        |slopes: &[f64]| DMatrix::from_fn(n, n, |i, j| units[j] / units[i] * slopes[j * n + i]);
+    let (by_position, by_velocity) = (scaled(&found.by_position), scaled(&found.by_velocity));
+    let pace = match by_position.norm().sqrt().max(by_velocity.norm()) {
+        pace if pace > 0.0 => pace,
+        _ => 1.0,
+    };
+    let mut flow = DMatrix::zeros(2 * n, 2 * n);
+    flow.view_mut((0, n), (n, n)).fill_diagonal(1.0);
+    flow.view_mut((n, 0), (n, n))
+        .copy_from(&(by_position / (pace * pace)));
+    flow.view_mut((n, n), (n, n))
+        .copy_from(&(by_velocity / pace));
+    (flow, pace)
 }
 
 /// M at `state`.
@@ -203,6 +221,11 @@ pub(crate) fn decompose(
 ) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
     measure(&mut rows, units);
     normalise(&mut rows);
+    pivoted(&rows)
+}
+
+/// [`decompose`] of rows that are measured and of the lengths that they count with.
+pub(crate) fn pivoted(rows: &DMatrix<f64>) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
     let decomposed = rows.transpose().col_piv_qr();
     let r = decomposed.r();
     let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());
@@ -249,12 +272,14 @@ fn steady(
     Ok(())
 }
 
-/// An orthonormal basis of the deviations that meet the constraints, of which A is `jacobian`, in `units`.
+/// An orthonormal basis of the deviations that meet the constraints, of which A is `jacobian`, in `units` and times of which `pace` are a
+/// second.
 fn tangent(
     mech: &Prepared,
     state: &State,
     jacobian: &DMatrix<f64>,
     units: &DVector<f64>,
+    pace: f64,
 ) -> DMatrix<f64> {
     let spec = mech.spec();
     let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
@@ -273,7 +298,7 @@ fn tangent(
         sloped.residual_rate(Sloped::from_f64(state.t), &q, &v, &mut rate);
         for (row, rate) in rate.iter().enumerate() {
             for k in 0..Slopes::COUNT.min(n - first) {
-                rows[(h + row, first + k)] = rate.eps.along(k);
+                rows[(h + row, first + k)] = rate.eps.along(k) / pace;
             }
         }
     }
@@ -283,13 +308,19 @@ fn tangent(
 /// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
 fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
-    // Beside the eigenvalue, by what rounding leaves unknown of it, so that nothing is divided by 0.
-    let aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
-    let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
-    for k in 0..n {
-        shifted[(k, k)] -= value + aside;
-    }
-    let solver = shifted.lu();
+    // Beside the eigenvalue, by what rounding leaves unknown of it or a little more, so that nothing is divided by 0.
+    let mut aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
+    let solver = loop {
+        let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
+        for k in 0..n {
+            shifted[(k, k)] -= value + aside;
+        }
+        let solver = shifted.lu();
+        if solver.is_invertible() || !aside.is_finite() {
+            break solver;
+        }
+        aside *= 2.0;
+    };
     // Not at a right angle to any eigenvector that has a name.
     let mut vector = DVector::from_fn(n, |k, _| Complex::new(1.0 + (k as f64).sin(), 0.0));
     for _ in 0..3 {

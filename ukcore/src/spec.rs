@@ -24,6 +24,9 @@ pub struct Spec {
     pub coordinate_units: &'static [&'static str],
     /// Constraints, holonomic ones first, the order of the rows of A.
     pub constraints: &'static [ConstraintSpec],
+    /// Units of the constraints' multipliers, such as `"N"` where φ is a length and `"N m"` where it is an angle; none at all where the
+    /// declaration has no units, see [`Spec::multiplier_unit`].
+    pub multiplier_units: &'static [&'static str],
     /// Number h of holonomic constraints.
     pub holonomic: usize,
     /// Outputs, in declared order.
@@ -249,6 +252,7 @@ impl Spec {
         prepared: &[],
         coords: &[],
         coordinate_units: &[],
+        multiplier_units: &[],
         constraints: &[],
         holonomic: 0,
         outputs: &[],
@@ -274,6 +278,12 @@ impl Spec {
     /// Length of what emitted code takes as `prepared`: what depends on parameters only, then the branches held.
     pub(crate) const fn slots(&self) -> usize {
         self.prepared.len() + self.switches.len()
+    }
+
+    /// The unit of the multiplier of constraint `row`; empty where none is known.
+    #[must_use]
+    pub fn multiplier_unit(&self, row: usize) -> &'static str {
+        self.multiplier_units.get(row).copied().unwrap_or("")
     }
 
     /// The unit of coordinate `index`; empty for a plain number, and where none is declared.

@@ -144,6 +144,7 @@ const _: () = {
                 },
             ],
             holonomic: 0,
+            multiplier_units: &["N"],
             outputs: &[
                 ukcore::OutputSpec {
                     name: "speed",

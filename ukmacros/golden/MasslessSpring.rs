@@ -134,6 +134,7 @@ const _: () = {
                 },
             ],
             holonomic: 1,
+            multiplier_units: &["m"],
             outputs: &[
                 ukcore::OutputSpec {
                     name: "spring_force",

@@ -131,6 +131,7 @@ const _: () = {
                 },
             ],
             holonomic: 1,
+            multiplier_units: &["N/m"],
             outputs: &[
                 ukcore::OutputSpec {
                     name: "angle",

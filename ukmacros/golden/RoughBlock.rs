@@ -167,6 +167,7 @@ const _: () = {
                 },
             ],
             holonomic: 1,
+            multiplier_units: &["N"],
             outputs: &[
                 ukcore::OutputSpec {
                     name: "way",

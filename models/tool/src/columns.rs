@@ -99,11 +99,7 @@ impl Columns {
     /// The names of the quantities, with units behind where these are known.
     #[must_use]
     pub(crate) fn labels(&self) -> Vec<String> {
-        let label = |(name, unit): (&str, String)| match unit.as_str() {
-            "" => name.to_owned(),
-            unit => format!("{name} ({unit})"),
-        };
-        self.names().zip(self.units()).map(label).collect()
+        self.names().zip(self.units()).map(labelled).collect()
     }
 
     /// The same quantities of `mechanism`, which has other parameters.
@@ -166,4 +162,11 @@ fn family(name: &str) -> Option<String> {
     let (family, _) = name.split_once('[')?;
     let end = if family.starts_with("dot(") { ")" } else { "" };
     Some(format!("{family}{end}"))
+}
+/// A name, with a unit behind where there is one.
+pub(crate) fn labelled((name, unit): (impl Into<String>, String)) -> String {
+    match unit.as_str() {
+        "" => name.into(),
+        unit => format!("{} ({unit})", name.into()),
+    }
 }

@@ -107,8 +107,8 @@ impl From<Error> for Failure {
     }
 }
 
-/// The message of an error, with settings by the names that they have on the command line.
-fn told(error: &Error) -> String {
+/// The message of an error, with settings and arguments by the names that they have on the command line.
+pub(crate) fn told(error: &Error) -> String {
     let message = match error {
         Error::At { t, source, .. } => format!("at t = {}: {}", full(*t), told(source)),
         Error::InvalidSetting { what, reason } => match *what {
@@ -116,6 +116,13 @@ fn told(error: &Error) -> String {
             "every" => format!("`--every` {reason}"),
             "method" => format!("`--method` {reason}"),
             "step" => format!("the step of `--method rattle=STEP` {reason}"),
+            "hold" => format!("`--hold` {reason}"),
+            "speed" => format!("`--speed` {reason}"),
+            "drives" => format!("the drives {reason}"),
+            "coordinates" => format!("the coordinates of `--effort` {reason}"),
+            "acceleration" => format!("the motion {reason}"),
+            "mechanism" => format!("the mechanism {reason}"),
+            "start" | "guess" | "state" => format!("the start {reason}"),
             // Which one stands in the reason.
             "parameter" => reason.clone(),
             _ => error.to_string(),

@@ -106,6 +106,7 @@ fn summary(
         "{} from `{}`, motors by their constraints",
         ready.entry.id, ready.start
     )?;
+    let spec = ready.mechanism.spec();
     let wide = width(first.iter().map(|e| e.name));
     for (k, motor) in first.iter().enumerate() {
         let efforts = samples.iter().map(|(_, efforts)| efforts[k].effort);
@@ -128,9 +129,14 @@ fn summary(
         // (No zero has a sign.)
         let [least, most, power, at, work] =
             [least, most, power, at, work].map(|x| significant(x + 0.0, 7));
+        let row = spec.constraints.iter().position(|c| c.name == name);
+        let [effort, watt, joule] = match row.map_or("", |row| spec.multiplier_unit(row)) {
+            "" => ["", "", ""].map(str::to_owned),
+            unit => [unit, "W", "J"].map(|unit| format!(" {unit}")),
+        };
         writeln!(
             out,
-            "  {name:<wide$}  effort {least} to {most}, power at most {power} at t = {at} s, work {work}"
+            "  {name:<wide$}  effort {least} to {most}{effort}, power at most {power}{watt} at t = {at} s, work {work}{joule}"
         )?;
     }
     Ok(())

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
-use ukcore::{Effort, Error, Kinematics, State, kinematics as swept};
+use ukcore::{Effort, Kinematics, Prepared, State, kinematics as swept};
 
-use crate::columns::Columns;
+use crate::columns::{Columns, labelled};
 use crate::command;
 use crate::curves::Curves;
 use crate::failure::Failure;
@@ -73,7 +73,7 @@ fn drive(text: &str) -> Result<Drive, String> {
 ///
 /// # Errors
 /// [`Failure::Usage`] for what is wrong with the command line, and where drives and held coordinates do not decide the motion;
-/// [`Failure::Failed`] where positions do not go on or a file cannot be written.
+/// [`Failure::Failed`] where no position is reached, where positions do not go on, and where a file cannot be written.
 pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure> {
     let to_stdout = args.csv.as_deref().is_some_and(output::is_stdout);
     let plot = args.plot.as_ref().and_then(|asked| asked.first());
@@ -82,15 +82,24 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let ready = args.scene.ready(models)?;
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
-    let speed = args.speed.as_ref().map_or(Ok(1.0), |speed| {
-        let speed = speed.si_rate(unit(&ready, name)?);
+    let speed = args.speed.as_ref().map(|speed| {
+        let speed = speed.si_rate(unit(&ready, name));
         speed.map_err(|e| Failure::Usage(format!("`--speed`: {e}")))
-    })?;
+    });
+    let speed = speed.transpose()?;
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| over(&ready, name, asked));
     let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
-    let found = found.map_err(told)?.at_speed(speed);
+    let found = match speed {
+        Some(speed) => found?.at_speed(speed)?,
+        None => found?,
+    };
+    if found.postures.is_empty() {
+        let limits: Vec<String> = found.limits.iter().map(ToString::to_string).collect();
+        let message = format!("no position of the sweep is reached: {}", limits.join("; "));
+        return Err(Failure::Failed(message));
+    }
     if let Some(mut curves) = curves.transpose()? {
         found
             .postures
@@ -102,7 +111,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let found = Found {
         efforts: match on.is_empty() {
             true => vec![Vec::new(); found.postures.len()],
-            false => found.efforts(&on).map_err(told)?,
+            false => found.efforts(&on)?,
         },
         swept: found,
     };
@@ -128,6 +137,21 @@ impl Found {
         let efforts = self.efforts.first().into_iter().flatten();
         efforts.flat_map(|e| ["effort", "power"].map(|what| format!("{what}({})", e.name)))
     }
+
+    /// The same with units, where these are known.
+    fn effort_labels(&self, mechanism: &Prepared) -> Vec<String> {
+        let spec = mechanism.spec();
+        let units = self.efforts.first().into_iter().flatten().flat_map(|e| {
+            let coordinate = spec
+                .coordinate_index(e.name)
+                .map(|j| spec.coordinate_unit(j));
+            match units::effort(coordinate.unwrap_or("")) {
+                Some(unit) => [unit, "W".to_owned()],
+                None => [const { String::new() }; 2],
+            }
+        });
+        self.effort_names().zip(units).map(labelled).collect()
+    }
 }
 
 /// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
@@ -144,31 +168,14 @@ fn over(ready: &Ready<'_>, name: &str, asked: &[String]) -> Result<Curves, Failu
     Curves::new(&ready.mechanism, &curves)
 }
 
-/// What the library says of its arguments, by the names that they have on the command line.
-fn told(error: Error) -> Failure {
-    match error {
-        Error::InvalidSetting { what, reason } => {
-            let what = match what {
-                "hold" => "`--hold`",
-                "drives" => "the drives",
-                "start" => "the start",
-                "coordinates" => "the coordinates of `--effort`",
-                "acceleration" => "the motion",
-                _ => "the mechanism",
-            };
-            Failure::Usage(format!("{what} {reason}"))
-        }
-        other => other.into(),
-    }
-}
-
-/// The unit of a coordinate, or of the time.
-fn unit(ready: &Ready<'_>, name: &str) -> Result<&'static str, Failure> {
+/// The unit of a coordinate, or of the time; none of what is neither, which the library has a word for.
+fn unit(ready: &Ready<'_>, name: &str) -> &'static str {
     let spec = ready.mechanism.spec();
-    if name == "t" && !spec.coords.contains(&"t") {
-        return Ok("s");
+    match (name, spec.coordinate_index(name)) {
+        (_, Ok(j)) => spec.coordinate_unit(j),
+        ("t", Err(_)) => "s",
+        _ => "",
     }
-    Ok(spec.coordinate_unit(spec.coordinate_index(name)?))
 }
 
 /// The drives as numbers, and how many intervals there are.
@@ -176,7 +183,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
     let mut ranges = Vec::new();
     let mut intervals = INTERVALS;
     for (k, drive) in asked.iter().enumerate() {
-        let unit = unit(ready, &drive.name)?;
+        let unit = unit(ready, &drive.name);
         let si = |quantity: &Quantity| {
             let value = quantity.si(unit);
             value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))
@@ -271,7 +278,7 @@ fn summary(
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
     let columns = Columns::of_interest(&ready.mechanism);
     let mut labels = columns.labels();
-    labels.extend(found.effort_names());
+    labels.extend(found.effort_labels(&ready.mechanism));
     let wide = width(labels.iter().map(String::as_str));
     let rows = postures
         .iter()
@@ -291,12 +298,19 @@ fn summary(
         let most = values().max_by(|a, b| a.0.total_cmp(&b.0));
         if let (Some(least), Some(most)) = (least, most) {
             let [low, from, high, to] =
-                [least.0, least.1, most.0, most.1].map(|x| significant(x, 7));
+                [least.0, least.1, most.0, most.1].map(|x| significant(x + 0.0, 7));
             writeln!(
                 out,
                 "  {label:<wide$}  {low} at {name} = {from}, to {high} at {to}"
             )?;
         }
+    }
+    let mut all = found.efforts.iter().flatten();
+    if found.efforts.iter().any(|e| !e.is_empty()) && all.all(|e| e.effort == 0.0) {
+        writeln!(
+            out,
+            "note: the constraints make this motion by themselves, so that forces on coordinates are not needed; what drives it `inverse` tells"
+        )?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use ukcore::model::Entry;
 use ukcore::{Error, Mode, Stability, State, equilibrium, modes as modes_of};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::numbers::{fixed, full, lines, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
@@ -33,10 +33,7 @@ const STILL: f64 = 1e-6;
 /// about it.
 pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
-    let failed = |error| match error {
-        Error::InvalidSetting { reason, .. } => Failure::Failed(format!("the start {reason}")),
-        other => Failure::Failed(other.to_string()),
-    };
+    let failed = |error: Error| Failure::Failed(told(&error));
     let (state, stability) = if args.steady {
         (ready.state.clone(), None)
     } else {
@@ -47,16 +44,21 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     output::to_stdout(|out| {
         place(out, &ready, &state, stability)?;
         limits(out, &ready, &state)?;
-        let still = Mode::STILL * found.iter().map(Mode::size).fold(0.0, f64::max);
         // A displacement that costs nothing has an eigenvalue of 0 twice, with one shape.
         let again = |k: usize| {
-            let same = |other: &Mode| other.size() <= still && other.shape == found[k].shape;
-            found[k].size() <= still && found[..k].iter().any(same)
+            let same = |other: &Mode| other.size() == 0.0 && alike(other, &found[k]);
+            found[k].size() == 0.0 && found[..k].iter().any(same)
         };
         let told = (0..found.len()).filter(|k| !again(*k));
         told.map(|k| &found[k])
-            .try_for_each(|mode| show(out, &ready, mode, still))
+            .try_for_each(|mode| show(out, &ready, mode))
     })
+}
+
+/// Whether two modes have one shape, but for what is not shown of it.
+fn alike(a: &Mode, b: &Mode) -> bool {
+    let mut pairs = a.shape.iter().zip(&b.shape);
+    pairs.all(|([re, im], [too, im_too])| (re - too).hypot(im - im_too) <= STILL)
 }
 
 fn place(
@@ -72,7 +74,7 @@ fn place(
         Stability::Unstable => "not stable",
     });
     match word {
-        Some(word) => writeln!(out, "{id} rests, {word}, at")?,
+        Some(word) => writeln!(out, "{id} from `{}` rests, {word}, at", ready.start)?,
         None => writeln!(out, "{id} as in `{}`", ready.start)?,
     }
     let names = ready.mechanism.spec().coords;
@@ -127,12 +129,12 @@ fn limits(out: &mut dyn Write, ready: &Ready<'_>, state: &State) -> io::Result<(
     }
 }
 
-fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::Result<()> {
+fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     let Mode {
         growth, frequency, ..
     } = *mode;
     let size = mode.size();
-    if size <= still {
+    if size == 0.0 {
         writeln!(out, "0 rad/s: a displacement that costs nothing")?;
         return shape(out, ready, mode);
     }

@@ -43,6 +43,8 @@ pub const GREY: RGBColor = RGBColor(120, 120, 120);
 pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
+/// The drawing library knows whole numbers alone: charts are drawn in so many parts of a pixel.
+const PARTS: u32 = 10;
 /// Height of a row of a legend above the frame.
 const ROW: u32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
@@ -166,7 +168,7 @@ impl Chart {
     /// # Errors
     /// [`Failure::Failed`] if the drawing library fails.
     pub fn svg(&self) -> Result<String, Failure> {
-        svg(self.size, |area| self.draw(area))
+        svg(self.size, PARTS, |area| self.draw(area))
     }
 
     fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
@@ -194,18 +196,19 @@ impl Chart {
         let frame = self.draw_legend_above(area)?;
         let area = frame.as_ref().unwrap_or(area);
         let mut chart = ChartBuilder::on(area)
-            .margin(10)
-            .margin_right(18)
-            .x_label_area_size(46)
-            .y_label_area_size(64)
+            .margin(10 * PARTS)
+            .margin_right(18 * PARTS)
+            .x_label_area_size(46 * PARTS)
+            .y_label_area_size(64 * PARTS)
             .build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID)
-            .axis_style(FRAME)
-            .label_style((FONT, TICK_SIZE))
-            .axis_desc_style((FONT, LABEL_SIZE))
+            .bold_line_style(GRID.stroke_width(PARTS))
+            .axis_style(FRAME.stroke_width(PARTS))
+            .set_all_tick_mark_size(5 * PARTS)
+            .label_style((FONT, TICK_SIZE * PARTS))
+            .axis_desc_style((FONT, LABEL_SIZE * PARTS))
             .x_desc(self.x_label.as_str())
             .y_desc(self.y_label.as_str())
             .x_label_formatter(&|v| tick(*v))
@@ -227,10 +230,10 @@ impl Chart {
         chart
             .configure_series_labels()
             .position(position)
-            .margin(8)
-            .legend_area_size(30)
+            .margin(8 * PARTS)
+            .legend_area_size(30 * PARTS)
             .background_style(WHITE.mix(0.85))
-            .label_font((FONT, TICK_SIZE))
+            .label_font((FONT, TICK_SIZE * PARTS))
             .draw()
     }
 }
@@ -247,10 +250,10 @@ pub(crate) fn legend_height(entries: usize) -> u32 {
 pub fn stacked(charts: &[Chart]) -> Result<String, Failure> {
     let width = charts.iter().map(|chart| chart.size.0).max();
     let height = charts.iter().map(|chart| chart.size.1).sum();
-    svg((width.unwrap_or(0), height), |area| {
+    svg((width.unwrap_or(0), height), PARTS, |area| {
         let mut rest = area.clone();
         for chart in charts {
-            let (panel, below) = rest.split_vertically(chart.size.1);
+            let (panel, below) = rest.split_vertically(chart.size.1 * PARTS);
             chart.draw(&panel)?;
             rest = below;
         }
@@ -270,9 +273,10 @@ impl Chart {
         // What lies on top comes first.
         let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
         let rows = named().count().div_ceil(2);
-        let (legend, frame) = area.split_vertically(legend_height(named().count()));
+        let (legend, frame) = area.split_vertically(legend_height(named().count()) * PARTS);
         let column = self.size.0 as i32 / 2 - 10;
-        let text = (FONT, TICK_SIZE)
+        let at = |x: i32, y: i32| (x * PARTS as i32, y * PARTS as i32);
+        let text = (FONT, TICK_SIZE * PARTS)
             .into_text_style(&legend)
             .pos(Pos::new(HPos::Left, VPos::Center));
         for (k, series) in named().enumerate() {
@@ -280,19 +284,24 @@ impl Chart {
                 16 + column * (k / rows) as i32,
                 8 + (ROW / 2 + ROW * (k % rows) as u32) as i32,
             );
-            let style = series.colour.stroke_width(series.width);
-            let line = [(x, y), (x + 26, y)];
+            let style = series.colour.stroke_width(series.width * PARTS);
+            let line =
+                |from: i32, to: i32| PathElement::new([at(x + from, y), at(x + to, y)], style);
             if series.dashed {
-                legend.draw(&PathElement::new([(x, y), (x + 9, y)], style))?;
-                legend.draw(&PathElement::new([(x + 17, y), (x + 26, y)], style))?;
+                legend.draw(&line(0, 9))?;
+                legend.draw(&line(17, 26))?;
             } else {
-                legend.draw(&PathElement::new(line, style))?;
+                legend.draw(&line(0, 26))?;
             }
             if series.dots > 0 {
-                let dot = Circle::new((x + 13, y), series.dots, series.colour.filled());
-                legend.draw(&dot)?;
+                let size = series.dots * PARTS;
+                legend.draw(&Circle::new(at(x + 13, y), size, series.colour.filled()))?;
             }
-            legend.draw(&Text::new(series.label.as_str(), (x + 34, y), text.clone()))?;
+            legend.draw(&Text::new(
+                series.label.as_str(),
+                at(x + 34, y),
+                text.clone(),
+            ))?;
         }
         Ok(Some(frame))
     }
@@ -300,24 +309,29 @@ impl Chart {
 
 pub(crate) type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
-/// What `draw` draws on an area of this size, as the text of an SVG file with a view box, so that a page can scale it. (The drawing
-/// library sets one only in some versions.)
+/// What `draw` draws on an area of this size in pixels, in so many `parts` of them, as the text of an SVG file with a view box, so that a
+/// page can scale it.
 pub(crate) fn svg(
     size: (u32, u32),
+    parts: u32,
     draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>>,
 ) -> Result<String, Failure> {
     let mut text = String::new();
     {
-        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let fine = (size.0 * parts, size.1 * parts);
+        let area = SVGBackend::with_string(&mut text, fine).into_drawing_area();
         draw(&area)
             .and_then(|()| area.present())
             .map_err(|e| Failure::Failed(format!("cannot draw a figure: {e}")))?;
     }
-    if text.contains("viewBox") {
-        return Ok(text);
-    }
-    let scalable = format!("<svg viewBox=\"0 0 {} {}\" ", size.0, size.1);
-    Ok(text.replacen("<svg ", &scalable, 1))
+    let (_, body) = text.split_once('>').unwrap_or_default();
+    Ok(format!(
+        "<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\">{body}",
+        size.0,
+        size.1,
+        size.0 * parts,
+        size.1 * parts,
+    ))
 }
 
 fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
@@ -325,14 +339,14 @@ fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
     series: &Series,
     scale: Scale,
 ) -> Result<(), DrawError<'a>> {
-    let style = series.colour.stroke_width(series.width);
+    let style = series.colour.stroke_width(series.width * PARTS);
     let place = |&(x, y): &(f64, f64)| match scale {
         Scale::Linear => (x, y),
         Scale::Decades => (x.log10(), y.log10()),
     };
     let points = series.points.iter().map(place);
     let annotation = if series.dashed {
-        chart.draw_series(DashedLineSeries::new(points, 6, 4, style))?
+        chart.draw_series(DashedLineSeries::new(points, 6 * PARTS, 4 * PARTS, style))?
     } else {
         chart.draw_series(LineSeries::new(points, style))?
     };
@@ -341,10 +355,12 @@ fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
         annotation
             .label(series.label.as_str())
             .legend(move |(x, y)| {
-                let gap = if dashed { 9 } else { 0 };
-                EmptyElement::at((x, y))
-                    + PathElement::new(vec![(0, 0), (11 - gap / 3, 0)], style)
-                    + PathElement::new(vec![(11 + gap / 3, 0), (22, 0)], style)
+                let gap = if dashed { 3 } else { 0 };
+                let line = |from: i32, to: i32| {
+                    let along = |x: i32| (x * PARTS as i32, 0);
+                    PathElement::new(vec![along(from), along(to)], style)
+                };
+                EmptyElement::at((x, y)) + line(0, 11 - gap) + line(11 + gap, 22)
             });
     }
     if series.dots > 0 {
@@ -353,10 +369,10 @@ fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
                 .points
                 .iter()
                 .filter(|p| !series.rings.contains(p))
-                .map(|p| Circle::new(place(p), series.dots, series.colour.filled())),
+                .map(|p| Circle::new(place(p), series.dots * PARTS, series.colour.filled())),
         )?;
     }
-    let ring = |p| Circle::new(place(p), series.dots.max(2) + 1, style);
+    let ring = |p| Circle::new(place(p), (series.dots.max(2) + 1) * PARTS, style);
     chart.draw_series(series.rings.iter().map(ring))?;
     Ok(())
 }
@@ -521,7 +537,7 @@ mod tests {
         let svg = chart.svg().expect("figure");
         assert!(svg.starts_with("<svg "));
         assert!(svg.trim_end().ends_with("</svg>"));
-        assert!(svg.contains("viewBox=\"0 0 480 300\""));
+        assert!(svg.contains("width=\"480\" height=\"300\" viewBox=\"0 0 4800 3000\""));
         for text in ["t (s)", "ÿ &lt; 1 (m/s²)", "free fall"] {
             assert!(svg.contains(text), "{text} in {svg}");
         }

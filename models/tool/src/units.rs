@@ -109,6 +109,11 @@ impl Quantity {
     }
 }
 
+/// The unit of a force or torque on a coordinate that is measured in `unit`; none where that is not known.
+pub(crate) fn effort(unit: &str) -> Option<String> {
+    Unit::parse(unit).ok().map(|unit| unit.dimension().effort())
+}
+
 /// A bare number.
 impl From<f64> for Quantity {
     fn from(value: f64) -> Self {

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::mechanism::Prepared;
-use crate::modes::{INDEPENDENT, measure};
+use crate::modes::{INDEPENDENT, measure, pivoted};
 use crate::zero::locate;
 
 /// Steps of Newton's method at most.
@@ -21,6 +21,8 @@ const WANTED: f64 = 0.15;
 /// The first step, as a part of the sweep; and the least one, of the coordinates.
 const FIRST: f64 = 1e-3;
 const LEAST: f64 = 1e-9;
+/// What is nearer to a limit than this part of the sweep is there.
+pub(super) const AT: f64 = 1e-12;
 /// Steps along a curve at most.
 const STEPS: usize = 100_000;
 
@@ -110,10 +112,10 @@ impl Rows {
                 row /= *length;
             }
         }
-        let decomposed = matrix.transpose().col_piv_qr();
+        let (decomposed, pivots) = pivoted(&matrix);
         let r = decomposed.r();
-        let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());
-        let pivots: Vec<f64> = pivots.take(rank).take_while(|x| *x > INDEPENDENT).collect();
+        let pivots = pivots.into_iter().take(rank);
+        let pivots: Vec<f64> = pivots.take_while(|x| *x > INDEPENDENT).collect();
         let mut order = DVector::from_fn(matrix.nrows(), |i, _| i);
         decomposed.p().permute_rows(&mut order);
         let mut turned = DMatrix::identity(matrix.ncols(), matrix.ncols());
@@ -327,10 +329,9 @@ impl Curve<'_> {
             let left = (until - next.s()) * sense;
             places.push(next);
             if back {
-                break if left > 0.0 {
-                    End::Turned
-                } else {
-                    End::Arrived
+                break match left > -AT {
+                    true => End::Turned,
+                    false => End::Arrived,
                 };
             }
         };

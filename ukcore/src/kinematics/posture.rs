@@ -125,10 +125,15 @@ impl Curve<'_> {
                 add(&mut mean.acceleration, &posture.acceleration);
             }
         }
-        for (j, begin, gain) in &self.fixed {
-            mean.state.q[*j] = begin + gain * s;
-        }
+        self.prescribe(&mut mean.state.q, s);
         Ok(Some(mean))
+    }
+
+    /// Gives prescribed coordinates their values.
+    fn prescribe(&self, q: &mut [f64], s: f64) {
+        for (j, begin, gain) in &self.fixed {
+            q[*j] = begin + gain * s;
+        }
     }
 
     /// Where the piece from `a` to `b` has the part `s` of the sweep.
@@ -150,12 +155,11 @@ impl Curve<'_> {
         let n = guess.len() - 1;
         let mut q = guess.as_slice()[..n].to_vec();
         let (t, rest) = (self.time_at(s), vec![0.0; n]);
-        for (j, begin, gain) in &self.fixed {
-            q[*j] = begin + gain * s;
-        }
         // By the rows that were independent at the start, then by all.
+        self.prescribe(&mut q, s);
         if let Some(x) = self.solved(DVector::from_vec(q.clone()).insert_row(n, s), true) {
             q.copy_from_slice(&x.as_slice()[..n]);
+            self.prescribe(&mut q, s);
         }
         let ease = self.units.as_slice()[..n].to_vec();
         let held = self.fixed.iter().map(|(j, ..)| *j).collect();

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DVector;
 
 use super::Limit;
-use super::curve::{Curve, End, Place, Rows};
+use super::curve::{AT, Curve, End, Place, Rows};
 use crate::assemble::State;
 use crate::diagnosis::quoted;
 use crate::error::Error;
@@ -15,8 +15,10 @@ use crate::modes::{mass_matrix, units};
 use crate::nearby::nearby;
 use crate::random::Random;
 
-/// How fast s changes along the curve, below which a drive stands still.
-pub(super) const STILL: f64 = 1e-6;
+/// How fast s changes along the curve, below which a drive stands still: at a dead centre positions are known to the root of rounding.
+pub(super) const STILL: f64 = 1e-7;
+/// A sweep counts as at most so many times as long as the coordinates, however fast these move beside a dead centre.
+const LONG: f64 = 100.0;
 /// A share of a limit that is rounding.
 const SHARE: f64 = 1e-6;
 /// States beside one that are looked at, to tell what holds at it alone.
@@ -54,9 +56,16 @@ impl Drive {
         let spec = mech.spec();
         let mut all: Vec<Drive> = Vec::new();
         for (name, range) in drives {
-            let coordinate = match *name {
-                "t" if !spec.coords.contains(&"t") => None,
-                name => Some(spec.coordinate_index(name)?),
+            let coordinate = match (*name, spec.coordinate_index(name)) {
+                ("t", Err(_)) => None,
+                (_, Ok(j)) => Some(j),
+                (_, Err(_)) if spec.output_index(name).is_ok() => {
+                    let reason = format!(
+                        "have `{name}`, an output: declare a coordinate for it, which a holonomic constraint keeps equal to it, and drive that"
+                    );
+                    return invalid("drives", reason);
+                }
+                (_, Err(unknown)) => return Err(unknown),
             };
             let known = coordinate.map_or("t", |j| spec.coords[j]);
             if !(range.start.is_finite() && range.end.is_finite()) {
@@ -118,10 +127,11 @@ impl<'a> Sweep<'a> {
         let curve = self.curve(|drive| drive.range.clone());
         let (begin, units) = self.place(&curve, &state, from)?;
         let mut curve = Curve { units, ..curve };
-        let speed = 1.0 / self.drives[0].gain().abs();
+        let speed = self.speed();
         let part = |k: usize| k as f64 / intervals as f64;
+        // At its end all is before it.
         let (before, after): (Vec<usize>, Vec<usize>) =
-            (0..=intervals).partition(|k| part(*k) < begin.s());
+            (0..=intervals).partition(|k| part(*k) < begin.s() || begin.s() >= 1.0);
         let (mut postures, mut limits) = (Vec::new(), Vec::new());
         for (mut wanted, up) in [(before, false), (after, true)] {
             if up {
@@ -137,6 +147,7 @@ impl<'a> Sweep<'a> {
             }
             let path = curve.follow(begin, until);
             curve.gauge(&path);
+            let limit = (path.end == End::Turned).then(|| path.last().s());
             for (index, b) in path.places.iter().enumerate().skip(1) {
                 let within = |k: usize| {
                     if up {
@@ -146,6 +157,9 @@ impl<'a> Sweep<'a> {
                     }
                 };
                 while let Some(k) = wanted.pop_if(|k| within(*k)) {
+                    if limit.is_some_and(|limit| (part(k) - limit).abs() <= AT) {
+                        continue;
+                    }
                     postures.extend(curve.posture(&path, index - 1, part(k), speed)?);
                 }
             }
@@ -156,6 +170,20 @@ impl<'a> Sweep<'a> {
             }
         }
         Ok((postures, limits))
+    }
+
+    /// How much of the sweep is done in a second: that of time, if it moves; else the first drive has the speed 1.
+    fn speed(&self) -> f64 {
+        match self.timed() {
+            Some(time) => time.gain().recip(),
+            None => self.drives[0].gain().abs().recip(),
+        }
+    }
+
+    /// The time, if it is a drive and moves.
+    pub(super) fn timed(&self) -> Option<&Drive> {
+        let mut drives = self.drives.iter();
+        drives.find(|drive| drive.coordinate.is_none() && drive.gain() != 0.0)
     }
 
     /// Which part of the sweep is done at the start, if all drives agree on one.
@@ -233,31 +261,89 @@ impl<'a> Sweep<'a> {
             return Err(self.miscounted(curve, state, &rows));
         }
         let way = free.row(0).transpose();
-        if way[n].abs() <= STILL {
-            let leader = self.mech.spec().coords[way.rows(0, n).icamax()];
-            let names: Vec<String> = self
-                .drives
-                .iter()
-                .map(|d| format!("`{}`", d.name))
-                .collect();
-            return invalid(
-                "start",
-                format!(
-                    "is a dead centre: {} would stand still while `{leader}` moves; begin beside it, or drive `{leader}`",
-                    names.join(", ")
-                ),
-            );
-        }
-        let moved = way.rows(0, n).norm() / way[n].abs();
+        let measured = |x: f64, j: usize| x / curve.units[j];
+        let gains = curve.fixed.iter().map(|(j, _, gain)| measured(*gain, *j));
+        let gains = gains.fold(0.0_f64, f64::hypot);
         let size = x.rows(0, n).component_div(&curve.units.rows(0, n)).norm();
+        let (size, moved) = (size.max(gains), way.rows(0, n).norm());
+        let long = if size > 0.0 { size } else { 1.0 };
+        if way[n].abs() * long <= STILL * moved {
+            return Err(self.still(curve, state, &rows));
+        }
+        let moved = moved / way[n].abs();
+        let length = if size > 0.0 {
+            moved.clamp(size, LONG * size)
+        } else {
+            moved
+        };
         let mut units = curve.units.clone();
-        let length = moved.max(size);
         if length > 0.0 {
             units[n] = length.recip();
         }
         let mut way = way.component_mul(&curve.units).component_div(&units);
         way /= way.norm() * way[n].signum();
         Ok((Place { x, way }, units))
+    }
+
+    /// The rows at other consistent states, beside `state`.
+    fn beside(&self, curve: &Curve<'_>, state: &State) -> Vec<Rows> {
+        let n = self.mech.spec().n();
+        let mut random = Random::new(0x5eed);
+        let states = (0..NEIGHBOURS).filter_map(|_| nearby(self.mech, state, &mut random));
+        let others = states.filter(|there| there.q != state.q);
+        let rows = others.map(|there| {
+            let x = DVector::from_vec(there.q).insert_row(n, 0.0);
+            let time = (there.t, curve.time.1);
+            let curve = Curve {
+                time,
+                ..curve.clone()
+            };
+            curve.rows(&x, n + 1)
+        });
+        rows.collect()
+    }
+
+    /// Why the drives stand still at `state`, where the mechanism has these `rows`: at a dead centre, or since they are held anywhere.
+    fn still(&self, curve: &Curve<'_>, state: &State, rows: &Rows) -> Error {
+        let spec = self.mech.spec();
+        let n = spec.n();
+        let leader = spec.coords[rows.free().row(0).columns(0, n).transpose().icamax()];
+        let names = self.drives.iter().map(|drive| drive.name.to_owned());
+        let names = quoted(&names.collect::<Vec<_>>());
+        let held = |rows: &Rows| {
+            let free = rows.free();
+            free.nrows() == 1 && free[(0, n)].abs() <= SHARE * free.row(0).columns(0, n).norm()
+        };
+        let beside = self.beside(curve, state);
+        let (what, reason) = if !beside.is_empty() && beside.iter().all(held) {
+            let by: Vec<String> = self.holding(rows).map(|(name, _)| name).collect();
+            let reason = format!(
+                "do not move: {} {} {names} wherever the mechanism goes; drive `{leader}`",
+                quoted(&by),
+                if by.len() == 1 { "holds" } else { "hold" }
+            );
+            ("drives", reason)
+        } else {
+            let reason = format!(
+                "is a dead centre: {names} would stand still while `{leader}` moves; begin beside it, or drive `{leader}`"
+            );
+            ("start", reason)
+        };
+        Error::InvalidSetting { what, reason }
+    }
+
+    /// The constraints that add up to a force on the drives where these stand still, with their numbers.
+    fn holding(&self, rows: &Rows) -> impl Iterator<Item = (String, usize)> {
+        let spec = self.mech.spec();
+        let mut drive = DVector::zeros(spec.n() + 1);
+        drive[spec.n()] = 1.0;
+        let shares = rows.combination(&drive);
+        let most = shares[..spec.holonomic]
+            .iter()
+            .fold(0.0, |s: f64, x| s.max(x.abs()));
+        (0..spec.holonomic)
+            .filter(move |row| shares[*row].abs() > SHARE * most)
+            .map(|row| (spec.constraints[row].name.to_owned(), row))
     }
 
     /// Why drives and held coordinates do not leave one way to go at `state`.
@@ -271,19 +357,8 @@ impl<'a> Sweep<'a> {
                 reason,
             };
         }
-        let mut random = Random::new(0x5eed);
-        let singular = (0..NEIGHBOURS).any(|_| {
-            let there = nearby(self.mech, state, &mut random);
-            there.is_some_and(|there| {
-                let x = DVector::from_vec(there.q).insert_row(spec.n(), 0.0);
-                let time = (there.t, curve.time.1);
-                let curve = Curve {
-                    time,
-                    ..curve.clone()
-                };
-                curve.rows(&x, spec.n() + 1).rank > rows.rank
-            })
-        });
+        let beside = self.beside(curve, state);
+        let singular = beside.iter().any(|there| there.rank > rows.rank);
         if singular {
             let reason = "is a singular position, in which branches may meet: it does not tell which is meant; begin beside it";
             return Error::InvalidSetting {
@@ -337,17 +412,12 @@ impl<'a> Sweep<'a> {
             .to_vec();
         // A force on the drive is held by the rows that add up to it there; those of parts that stand still but pass it on.
         let rows = curve.rows(&place.x, n);
-        let mut drive = DVector::zeros(n + 1);
-        drive[n] = 1.0;
-        let shares = &rows.combination(&drive)[..spec.holonomic];
-        let most = shares.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
         let moves = |row: usize| {
             let mut pattern = spec.structure.jacobian_pattern.iter();
             pattern.any(|(c, j)| *c == row && (way[*j] / way[leader]).abs() > SHARE)
         };
-        let holding = (0..shares.len())
-            .filter(|row| shares[*row].abs() > SHARE * most && moves(*row))
-            .map(|row| spec.constraints[row].name.to_owned());
+        let holding = self.holding(&rows).filter(|(_, row)| moves(*row));
+        let holding = holding.map(|(name, _)| name);
         let drives = self.drives.iter().map(|d| (d.name, d.of(&state)));
         let drives = drives.collect();
         let unit = |drive: &Drive| drive.coordinate.map_or("s", |j| spec.coordinate_unit(j));

@@ -30,6 +30,7 @@ pub(super) fn spec(
     let coords = model.coord_elements.iter().map(|e| &e.name);
     let units = model.coord_elements.iter().filter(|_| model.units);
     let units = units.map(|e| e.unit.as_ref().map(Unit::si).unwrap_or_default());
+    let efforts = &system.efforts;
     let constraints = system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
         let name = c.item.text();
         let kind = match c.kind {
@@ -68,6 +69,7 @@ pub(super) fn spec(
             coordinate_units: &[#(#units),*],
             constraints: &[#(#constraints),*],
             holonomic: #holonomic,
+            multiplier_units: &[#(#efforts),*],
             outputs: &[#(#outputs),*],
             starts: &[#(#starts),*],
             drawing: #drawing,

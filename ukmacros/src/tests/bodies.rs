@@ -95,7 +95,7 @@ fn spatial_joints_are_equations() {
         "slider(p, q, [0, 0, 1])",
         &format!("[{place}, {fixed}]"),
     );
-    let driven = "inner(a.along([cos(t), sin(t), 0]), b.along([0, 1, 0]))";
+    let driven = "inner(a.along([-sin(t), cos(t), 0]), b.along([1, 0, 0]))";
     check_rows(SPACE, "drive(a, b, [0, 0, 1], t)", driven);
 }
 

@@ -91,6 +91,23 @@ fn units_are_handed_on() {
 }
 
 #[test]
+fn multipliers_do_work_on_their_rows() {
+    let told = |body: &str| {
+        let code = accepted(body);
+        let (_, units) = code.split_once("multiplier_units : & [").expect("units");
+        let (units, _) = units.split_once(']').expect("their end");
+        units.replace('"', "").replace(" ,", ",")
+    };
+    let body = "bodies { planar a { mass: 1 [kg], inertia: 1 } } \
+        holonomic { p: pin(ground.at([0, 0]), a.at([1, 0])), motor: turn(ground, a) = 2 * t, rod: sq(a.x) + sq(a.y) = 1, plain: sq(a.x) / sq(a.y) = 1 } \
+        nonholonomic { roll: dot(a.x) = 0.1 [m] * dot(a.angle) }";
+    assert_eq!(told(body), "N, N, N m, N/m, N m, N");
+    assert_eq!(told(&body.replace("[kg]", "").replace("[m]", "")), "");
+    let unknown = "coords { x [m], y } mass { x: 1, y: 1 } holonomic { c: y = sq(y) }";
+    assert_eq!(told(unknown), "");
+}
+
+#[test]
 fn bodies_have_units_where_some_are_declared() {
     let body = "bodies { planar a { mass: 1, inertia: 1 } spatial b { mass: 1, inertia: [1, 1, 1] } planar c { mass: 1, inertia: 1 } } \
          tree { j: slot(ground.at([0, 0]), c.at([0, 0]), [1, 0]) } output { o MARK = a.x }";

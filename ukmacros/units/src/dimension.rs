@@ -90,6 +90,15 @@ impl Dimension {
         }
     }
 
+    /// The unit in SI of what does work on a displacement of this dimension: `N` on a length, `N m` on an angle or a plain number.
+    #[must_use]
+    pub fn effort(self) -> String {
+        match Dimension::ENERGY.per(self.without_angle()) {
+            Dimension::ENERGY => "N m".to_owned(),
+            other => other.to_string(),
+        }
+    }
+
     /// The same with angles as plain numbers.
     #[must_use]
     pub const fn without_angle(self) -> Self {

@@ -34,7 +34,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// [`Failure::Failed`] if the drawing library fails.
 pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     let height = HEAD + PITCH * rows.len() as i32 + 10;
-    svg((WIDTH as u32, height as u32), |area| {
+    svg((WIDTH as u32, height as u32), 1, |area| {
         area.fill(&WHITE)?;
         let mut x = 14;
         for class in Class::ALL {

@@ -236,7 +236,10 @@ fn it_is_measured() {
 #[test]
 fn its_modes_are_told() {
     let told = output("modes cart");
-    assert!(told.starts_with("cart rests, stable, at\n"), "{told}");
+    assert!(
+        told.starts_with("cart from `released` rests, stable, at\n"),
+        "{told}"
+    );
     let (big, m, l, k, g) = (2.0, 1.0, 0.5, 40.0, 9.81);
     // M l ω⁴ − ((M + m) g + k l) ω² + k g = 0.
     let (a, b, c): (f64, f64, f64) = (big * l, (big + m) * g + k * l, k * g);
@@ -305,6 +308,17 @@ fn constraints_are_diagnosed() {
         2,
         "no constraint is called `rd`; did you mean `rod`?",
     );
+    // The rod is a row of lengths squared, its multiplier a force for each of them.
+    let told = output("inverse cart --motor rod --until 0.2");
+    assert!(
+        told.contains(" N/m, power at most ") && told.ends_with(" J\n"),
+        "{told}"
+    );
+    let efforts = output("kinematics cart --drive x=0..0.1 --hold s --effort x,s");
+    assert!(
+        efforts.contains("effort(x) (N)") && efforts.contains("power(s) (W)"),
+        "{efforts}"
+    );
     let rod = output("inverse cart --motor rod --until 0.2 --csv");
     assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
 }
@@ -340,6 +354,16 @@ fn drives_are_swept_to_the_limits_of_motion() {
     assert!(
         (last[13] - force).abs() < 1e-9 && (last[11] + force).abs() < 1e-9,
         "{table}"
+    );
+    fails(
+        "kinematics cart --drive x=0.6..1 --hold s --csv -",
+        1,
+        "no position of the sweep is reached: `x` cannot pass 0.5 m: `rod` holds it",
+    );
+    fails(
+        "kinematics cart --drive swing=0..1 --hold s",
+        2,
+        "the drives have `swing`, an output: declare a coordinate for it",
     );
     fails(
         "kinematics cart --drive x=0..1",

@@ -162,7 +162,7 @@ fn curves_of_a_run_are_drawn() {
         path.display()
     ));
     let text = std::fs::read_to_string(&path).expect("a picture");
-    assert!(text.contains("viewBox=\"0 0 760 926\""), "{text}");
+    assert!(text.contains("viewBox=\"0 0 7600 9260\""), "{text}");
     for label in ["swing (deg)", "s (m), x (m)", "x (m)", "y (m)"] {
         assert!(text.contains(&format!("\n{label}\n")), "{label} in {text}");
     }

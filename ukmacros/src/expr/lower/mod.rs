@@ -287,6 +287,7 @@ impl<'m> Lowering<'m> {
             constants,
             defaults,
             units: Vec::new(),
+            efforts: Vec::new(),
             mass,
             kinetic,
             force,

@@ -113,7 +113,7 @@ parts! {
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
     ], "x y z xy yz zx");
     "drive" Space (a: Body, b: Body, u: Direction, angle: Number)
-        Rows(&["inner(a.along(cos(angle) * normals(u)[0] + sin(angle) * normals(u)[1]), b.along(normals(u)[1]))"], "");
+        Rows(&["inner(a.along(cos(angle) * normals(u)[1] - sin(angle) * normals(u)[0]), b.along(normals(u)[0]))"], "");
     "screw" Space (p: Point, q: Point, u: Direction, lead: Number) Rows(&[
         "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
     ], "");

@@ -15,6 +15,8 @@ pub(crate) struct System {
     pub(crate) defaults: Vec<f64>,
     /// Unit of each parameter in SI; empty where none is known, none at all where none is declared.
     pub(crate) units: Vec<String>,
+    /// Unit of each constraint's multiplier in SI; empty where none is known, none at all where none is declared.
+    pub(crate) efforts: Vec<String>,
     /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
     pub(crate) mass: BTreeMap<(usize, usize), (Id, Loc)>,
     pub(crate) kinetic: Option<(Id, Loc)>,

@@ -59,7 +59,7 @@ pub(super) struct Dimensions<'m> {
     pub(super) factor: bool,
 }
 
-/// Checks units, and enters those of parameters and options into `system`.
+/// Checks units, and enters those of parameters, multipliers and options into `system`.
 pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag: &Diagnostics) {
     if !model.units || !diag.is_empty() {
         return;
@@ -85,13 +85,18 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
         factor: false,
     };
     let (measured, dimensions) = lower_with(decl, model, &quiet, Some(dimensions));
-    let params = dimensions.map(|d| d.params).unwrap_or_default();
+    let (params, rows) = dimensions.map(|d| (d.params, d.rows)).unwrap_or_default();
     let params = model.param_elements.iter().zip(params);
     let params = params.map(|(element, measured)| match &element.default {
         Some(preset) => measured.unit(&preset.value),
         None => String::new(),
     });
     system.units = params.collect();
+    let efforts = (0..system.constraints.len()).map(|row| match rows.get(row) {
+        Some(Known { dimension, .. }) => dimension.effort(),
+        _ => String::new(),
+    });
+    system.efforts = efforts.collect();
     for (start, measured) in system.starts.iter_mut().zip(measured.starts) {
         for (option, measured) in start.options.iter_mut().zip(measured.options) {
             option.unit = measured.unit;
