@@ -30,6 +30,7 @@ mod linearise;
 mod machines;
 mod misses;
 mod modes;
+mod nearest;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

@@ -16,6 +16,7 @@ use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
 use crate::spec::{GuessKind, Spec};
 
+mod alone;
 mod search;
 
 pub(crate) use search::Search;

@@ -52,9 +52,8 @@ macro_rules! drawn {
                     for s in 0..Self::SIDES {
                         let [pin, knee, low, outer, heel, toe] = joints(n, s);
                         let hip = [self.a * (2.0 * s as f64 - 1.0), -self.l];
-                        let mut enter = |x: usize, from: [f64; 2], to: [f64; 2], corners: &[[f64; 2]]| {
-                            let mean = |k: usize| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64;
-                            (state.q[x], state.q[x + 1]) = (mean(0), mean(1));
+                        let mut enter = |x: usize, from: Point, to: Point, corners: &[Point]| {
+                            [state.q[x], state.q[x + 1]] = centre(corners);
                             state.q[x + 2] = (to[1] - from[1]).atan2(to[0] - from[0]);
                         };
                         enter(Self::BAR_J_X[n][s], pin, knee, &[pin, knee]);
@@ -85,6 +84,17 @@ fn meet(p: Point, r: f64, q: Point, s: f64, left: bool) -> Option<Point> {
         p[1] + along * dy + across * dx,
     ];
     (!across.is_nan()).then_some(place)
+}
+
+/// The centre of mass of uniform bars from each corner to the next.
+fn centre(corners: &[Point]) -> Point {
+    let next = corners.iter().cycle().skip(1);
+    let bars = corners.iter().zip(next).map(|([x, y], [u, v])| {
+        let length = (u - x).hypot(v - y);
+        [length, length * (x + u) / 2.0, length * (y + v) / 2.0]
+    });
+    let [length, x, y] = bars.fold([0.0; 3], |s, b| [s[0] + b[0], s[1] + b[1], s[2] + b[2]]);
+    [x / length, y / length]
 }
 
 /// Over a turn of the crank the toe is where circles about the joints have it.

@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::alone::Alone;
 use super::{Held, State};
 use crate::error::Error;
-use crate::manifold::{At, Level, Manifold, Part, Reached, parts};
+use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
 use crate::random::Random;
 use crate::scan::{largest, largest_difference};
@@ -16,13 +17,11 @@ const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
 /// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Beginnings, ever farther off, besides the guess and its perturbations, where solutions lie apart and another one may be nearer.
-const BEGINNINGS: usize = 24;
+/// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and more that are ever farther off.
+const BEGINNINGS: usize = 28;
 
-/// The solution that is found from the guess is taken for the nearest one if the second step is at most this share of the first. Where
-/// second derivatives make it ½ h of it, and h < ½, no other solution is nearer (theorem of Newton and Kantorovich). A sign of it, no
-/// proof: seen along the steps alone they may look smaller than they are elsewhere.
-const STRAIGHT: f64 = 0.1;
+/// Random beginnings are the same in every search.
+const SEED: u64 = 0x5eed;
 
 /// Solutions nearer than this share of the coordinates are one.
 const SAME: f64 = 1e-6;
@@ -30,7 +29,7 @@ const SAME: f64 = 1e-6;
 /// What the guess does not tell of counts so little.
 const UNTOLD: f64 = 1e-6;
 
-/// So many beginnings are tried for one guess; parts that come later have one solution each.
+/// After so many searches for one guess parts have one solution each.
 const MOST: usize = 20_000;
 
 /// The search for q, then for q̇.
@@ -40,6 +39,8 @@ pub(crate) struct Search {
     pub(crate) free: Vec<usize>,
     /// Coordinates that do not choose between solutions.
     pub(super) untold: Vec<usize>,
+    /// Searches for solutions of parts so far.
+    pub(super) begun: usize,
 }
 
 impl Search {
@@ -56,6 +57,7 @@ impl Search {
         Search {
             manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
             untold: Vec::new(),
+            begun: 0,
             free: (0..n).filter(|j| !held.contains(j)).collect(),
         }
     }
@@ -83,14 +85,16 @@ impl Search {
             return None;
         }
         let mut by_parts = ByParts {
+            alone: Alone::new(at.mech),
             search: self,
             at,
             guess,
             parts: &parts,
-            left: MOST,
         };
+        let straight = by_parts.straight();
         let all: Vec<usize> = (0..parts.len()).collect();
-        let mut x = by_parts.nearest(&all, guess.to_vec(), f64::INFINITY)?.x;
+        let found = by_parts.nearest(&all, guess.to_vec(), f64::INFINITY, Some(&straight));
+        let mut x = found?.x;
         self.manifold.project(at, &mut x).is_ok().then_some(x)
     }
 
@@ -141,11 +145,10 @@ impl Search {
 /// The search for the solution next to the guess, one part after the other.
 struct ByParts<'a> {
     search: &'a mut Search,
+    alone: Alone,
     at: &'a At<'a, f64>,
     guess: &'a [f64],
     parts: &'a [Part],
-    /// Beginnings that may still be tried.
-    left: usize,
 }
 
 /// A solution of some parts.
@@ -155,19 +158,76 @@ struct Found {
     distance: f64,
 }
 
+/// What is found straight from the guess, part by part: where, and for each part that has a solution how far it is.
+struct Straight {
+    x: Vec<f64>,
+    distances: Vec<Option<f64>>,
+}
+
+impl Straight {
+    /// How far the parts `group` are, if all have a solution.
+    fn distance(&self, group: &[usize]) -> Option<f64> {
+        group.iter().map(|part| self.distances[*part]).sum()
+    }
+}
+
 impl ByParts<'_> {
+    /// The first solution of each part that is found.
+    fn straight(&mut self) -> Straight {
+        let (mut x, mut distances) = (self.guess.to_vec(), Vec::new());
+        for part in self.parts {
+            let known = |needed: &usize| Option::is_some(&distances[*needed]);
+            let mut random = Random::new(SEED);
+            let found = match part.needs.iter().all(known) {
+                true => (0..BEGINNINGS).find_map(|k| self.begin(part, &x, k, &mut random)),
+                false => None,
+            };
+            distances.push(found.map(|found| {
+                x = found.x;
+                found.distance
+            }));
+        }
+        Straight { x, distances }
+    }
+
     /// `x` with the parts `open`, in their order, solved, less than `bound` from the guess, as near to it as is found. What hangs together
-    /// through parts that are solved alone is independent; else each solution of the first part is followed, the nearest first.
-    fn nearest(&mut self, open: &[usize], mut x: Vec<f64>, bound: f64) -> Option<Found> {
+    /// through parts that are solved alone is independent; else each solution of the first part is followed, the nearest first. Where all
+    /// before is as it is `straight` from the guess, nothing farther than that is looked for.
+    fn nearest(
+        &mut self,
+        open: &[usize],
+        mut x: Vec<f64>,
+        bound: f64,
+        straight: Option<&Straight>,
+    ) -> Option<Found> {
         let mut distance = 0.0;
         for group in self.groups(open) {
-            let mut best: Option<Found> = None;
-            for first in self.solutions(group[0], &x) {
-                let within = best.as_ref().map_or(bound - distance, |best| best.distance);
+            let mut best = straight.and_then(|straight| {
+                let (distance, mut x) = (straight.distance(&group)?, x.clone());
+                let unknowns = group.iter().flat_map(|part| &self.parts[*part].unknowns);
+                unknowns.for_each(|j| x[*j] = straight.x[*j]);
+                Some(Found { x, distance })
+            });
+            let known = straight.filter(|_| best.is_some());
+            let within = |best: &Option<Found>| {
+                let best = best.as_ref().map_or(f64::INFINITY, |best| best.distance);
+                best.min(bound - distance)
+            };
+            let firsts = match within(&best) > 0.0 {
+                true => self.solutions(group[0], &x, within(&best), known),
+                false => Vec::new(),
+            };
+            for first in firsts {
+                let within = within(&best);
                 if first.distance >= within {
                     break;
                 }
-                let rest = self.nearest(&group[1..], first.x, within - first.distance);
+                let same = |known: &&Straight| {
+                    let mut unknowns = self.parts[group[0]].unknowns.iter();
+                    unknowns.all(|j| first.x[*j] == known.x[*j])
+                };
+                let known = known.filter(same);
+                let rest = self.nearest(&group[1..], first.x, within - first.distance, known);
                 best = rest.map_or(best, |rest| {
                     Some(Found {
                         distance: first.distance + rest.distance,
@@ -175,7 +235,7 @@ impl ByParts<'_> {
                     })
                 });
             }
-            let best = best?;
+            let best = best.filter(|best| best.distance < bound - distance)?;
             (x, distance) = (best.x, distance + best.distance);
         }
         Some(Found { x, distance })
@@ -197,32 +257,41 @@ impl ByParts<'_> {
         groups
     }
 
-    /// The solutions of a part that are found, where those that it needs are solved, the nearest first; one where they do not lie apart.
-    fn solutions(&mut self, part: usize, x: &[f64]) -> Vec<Found> {
+    /// The solutions of a part less than `bound` from the guess that are found, where those that it needs are solved, and maybe others, the
+    /// nearest first; one where they do not lie apart, or where there is no other one. The one `straight` from the guess may be known.
+    fn solutions(
+        &mut self,
+        part: usize,
+        x: &[f64],
+        bound: f64,
+        straight: Option<&Straight>,
+    ) -> Vec<Found> {
+        let distance = straight.and_then(|straight| straight.distances[part]);
         let part = &self.parts[part];
-        let size = match largest(self.guess) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
-        let angles = self.at.mech.spec().structure.angles;
-        let (mut found, mut random) = (Vec::<Found>::new(), Random::new(0x5eed));
-        for beginning in 0..SHAKES.len() + BEGINNINGS {
-            let mut place = x.to_vec();
-            if let Some(share) = SHAKES.get(beginning) {
-                shake(&mut place, &part.unknowns, share * size);
-            } else {
-                let share = (beginning + 1 - SHAKES.len()) as f64 / BEGINNINGS as f64;
-                for j in &part.unknowns {
-                    let reach = if angles.contains(j) { PI } else { size };
-                    place[*j] += share * reach * random.signed();
+        let (mut found, mut random) = (Vec::<Found>::new(), Random::new(SEED));
+        for beginning in 0..BEGINNINGS {
+            let known = straight.zip(distance).filter(|_| beginning == 0);
+            let next = match known {
+                Some((straight, distance)) => {
+                    let mut x = x.to_vec();
+                    part.unknowns.iter().for_each(|j| x[*j] = straight.x[*j]);
+                    Some(Found { x, distance })
                 }
-            }
-            let Some(bend) = self.search(part, &mut place) else {
+                None => self.begin(part, x, beginning, &mut random),
+            };
+            let Some(next) = next else {
                 continue;
             };
-            self.enter(part, place, &mut found);
-            let alone = beginning == 0 && bend <= STRAIGHT;
-            if alone || !part.is_determined() || self.left == 0 {
+            let same =
+                |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
+            if !found.iter().any(same) {
+                found.push(next);
+            }
+            let first = found[0].distance;
+            if !part.is_determined()
+                || self.search.begun >= MOST
+                || beginning == 0 && self.is_alone(part, x, bound.max(first))
+            {
                 break;
             }
         }
@@ -230,39 +299,75 @@ impl ByParts<'_> {
         found
     }
 
-    /// Moves the unknowns of `part` in `x` to a solution; returns how the way bends.
-    fn search(&mut self, part: &Part, x: &mut [f64]) -> Option<f64> {
-        self.left = self.left.saturating_sub(1);
-        let manifold = &mut self.search.manifold;
-        let Reached { cost, bend } = manifold.search_part(self.at, part, self.guess, x);
-        (cost == 0.0).then_some(bend)
+    /// Whether a solution of `part` less than `distance` from the guess, or as far, is the only one there.
+    fn is_alone(&mut self, part: &Part, x: &[f64], distance: f64) -> bool {
+        let (untold, eases) = (&self.search.untold, self.search.manifold.ease());
+        let ease = |j: usize| eases[j] / weight(untold, j);
+        let reach = distance.sqrt();
+        self.alone
+            .holds(self.at, part, (x, self.guess), (reach, &ease))
     }
 
-    /// Keeps a solution, unless it is known, with angles turned to those next to the guess.
-    fn enter(&mut self, part: &Part, x: Vec<f64>, found: &mut Vec<Found>) {
+    /// The solution of `part` that a search from the guess leads to, or for other beginnings than the first from somewhere ever farther off.
+    fn begin(
+        &mut self,
+        part: &Part,
+        x: &[f64],
+        beginning: usize,
+        random: &mut Random,
+    ) -> Option<Found> {
+        let size = match largest(self.guess) {
+            size if size > 0.0 => size,
+            _ => 1.0,
+        };
+        let angles = self.at.mech.spec().structure.angles;
+        let mut place = x.to_vec();
+        if let Some(share) = SHAKES.get(beginning) {
+            shake(&mut place, &part.unknowns, share * size);
+        } else {
+            let share = (beginning + 1 - SHAKES.len()) as f64 / (BEGINNINGS - SHAKES.len()) as f64;
+            for j in &part.unknowns {
+                let reach = if angles.contains(j) { PI } else { size };
+                place[*j] += share * reach * random.signed();
+            }
+        }
+        let place = self.search(part, place)?;
+        Some(self.found(part, place))
+    }
+
+    /// `x` with the unknowns of `part` moved to a solution.
+    fn search(&mut self, part: &Part, mut x: Vec<f64>) -> Option<Vec<f64>> {
+        self.search.begun += 1;
+        let manifold = &mut self.search.manifold;
+        let cost = manifold.search_part(self.at, part, self.guess, &mut x);
+        (cost == 0.0).then_some(x)
+    }
+
+    /// A solution, with angles turned to those next to the guess.
+    fn found(&mut self, part: &Part, x: Vec<f64>) -> Found {
         let mut turned = x.clone();
         let angles = self.at.mech.spec().structure.angles;
         for j in part.unknowns.iter().filter(|j| angles.contains(j)) {
             turned[*j] += TAU * ((self.guess[*j] - x[*j]) / TAU).round();
         }
         // An angle may be more than a direction.
-        let x = match turned != x && self.search(part, &mut turned).is_some() {
-            true => turned,
-            false => x,
-        };
-        let same = |known: &Found| largest_difference(&known.x, &x) <= SAME * largest(&x);
-        if found.iter().any(same) {
-            return;
-        }
+        let turned = (turned != x).then_some(turned);
+        let x = turned
+            .and_then(|turned| self.search(part, turned))
+            .unwrap_or(x);
         let ease = self.search.manifold.ease();
-        let weight = |j: &usize| match self.search.untold.contains(j) {
-            true => UNTOLD,
-            false => 1.0,
+        let off = |j: &usize| {
+            let off = (x[*j] - self.guess[*j]) / ease[*j];
+            (weight(&self.search.untold, *j) * off).powi(2)
         };
-        let off = |j: &usize| (weight(j) * (x[*j] - self.guess[*j]) / ease[*j]).powi(2);
         let distance = part.unknowns.iter().map(off).sum();
-        found.push(Found { x, distance });
+        Found { x, distance }
     }
+}
+
+/// How much coordinate `j` counts in choosing between solutions.
+fn weight(untold: &[usize], j: usize) -> f64 {
+    if untold.contains(&j) { UNTOLD } else { 1.0 }
 }
 
 /// Moves the coordinates `free` by up to `by`: always in the same way, and no two of them alike.
