@@ -32,10 +32,10 @@ impl Alone {
     /// Whether the rows of `part` are seen to have one solution at most where each of its unknowns j differs from `middle` by at most
     /// `reach` · `ease`[j], and all other coordinates are those of `x`. They may have no other one where this is not seen.
     ///
-    /// Let J hold ∂φ/∂x over the box, and C be the inverse of its middle. Of two solutions x and y, by the mean value theorem row by row,
-    /// 0 = J (x − y) for some J in it, so |x − y| ≤ P |x − y| with P ≥ |1 − C J|, elementwise: if w − P w > 0 for some w > 0, then x = y.
-    /// (Neumaier 1990, Interval methods for systems of equations, §§4.1, 5.1; where J is Lipschitz this is the theorem of Newton and
-    /// Kantorovich.)
+    /// Let J hold ∂φ/∂x over the box, and C be a left inverse of its middle. Of two solutions x and y, by the mean value theorem row by
+    /// row, 0 = J (x − y) for some J in it, so |x − y| ≤ P |x − y| with P ≥ |1 − C J|, elementwise: if w − P w > 0 for some w > 0, then
+    /// x = y. (Neumaier 1990, Interval methods for systems of equations, §§4.1, 5.1; where J is Lipschitz this is the theorem of Newton
+    /// and Kantorovich.)
     pub(super) fn holds(
         &mut self,
         at: &At<'_, f64>,
@@ -67,19 +67,23 @@ impl Alone {
         };
         let (mut middles, mut radii) = (matrix(Interval::middle), matrix(Interval::radius));
         for (mut row, mut radii) in middles.row_iter_mut().zip(radii.row_iter_mut()) {
-            let norm = row.norm();
+            let norm = match row.norm() {
+                norm if norm > 0.0 => norm,
+                _ => 1.0,
+            };
             row /= norm;
             radii /= norm;
         }
-        let Some(inverse) = middles.clone().try_inverse() else {
+        let Some(normal) = middles.tr_mul(&middles).cholesky() else {
             return false;
         };
-        let one = DMatrix::identity(part.rows.len(), part.rows.len());
+        let inverse = normal.solve(&middles.transpose());
+        let one = DMatrix::identity(part.unknowns.len(), part.unknowns.len());
         let share = (&one - &inverse * middles).abs() + inverse.abs() * radii;
         if !share.iter().all(|x| x.is_finite()) {
             return false;
         }
-        let ones = DVector::from_element(part.rows.len(), 1.0);
+        let ones = DVector::from_element(part.unknowns.len(), 1.0);
         let Some(w) = (one - &share).lu().solve(&ones) else {
             return false;
         };
