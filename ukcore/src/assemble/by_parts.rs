@@ -15,8 +15,16 @@ pub(super) const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
 /// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and more that are ever farther off.
-const BEGINNINGS: usize = 28;
+/// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and rounds of others that are ever
+/// farther off. After the first round they end when each solution has been met twice: the chance that the next one leads to a solution not
+/// yet met is about the share of those met once (Good 1953, The population frequencies of species, Biometrika 40, 237-264).
+const BEGINNINGS: usize = SHAKES.len() + ROUNDS * ROUND;
+
+/// Random beginnings of one round.
+const ROUND: usize = 24;
+
+/// Rounds at most.
+const ROUNDS: usize = 5;
 
 /// Random beginnings are the same in every search.
 const SEED: u64 = 0x5eed;
@@ -219,7 +227,13 @@ impl<'a> ByParts<'a> {
         let distance = straight.and_then(|straight| straight.distances[part]);
         let part = &self.parts[part];
         let (mut found, mut random) = (Vec::<Found>::new(), Random::new(SEED));
+        let mut once: Vec<bool> = Vec::new();
         for beginning in 0..BEGINNINGS {
+            let further = beginning >= SHAKES.len() + ROUND;
+            // Where most are new they do not lie apart.
+            if further && (!once.contains(&true) || 2 * found.len() > ROUND) {
+                break;
+            }
             let known = straight.zip(distance).filter(|_| beginning == 0);
             let next = match known {
                 Some((straight, distance)) => {
@@ -234,8 +248,12 @@ impl<'a> ByParts<'a> {
             };
             let same =
                 |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
-            if !found.iter().any(same) {
-                found.push(next);
+            match found.iter().position(same) {
+                Some(known) => once[known] = false,
+                None => {
+                    found.push(next);
+                    once.push(true);
+                }
             }
             let first = found[0].distance;
             if !part.is_determined()
@@ -275,7 +293,7 @@ impl<'a> ByParts<'a> {
         if let Some(share) = SHAKES.get(beginning) {
             shake(&mut place, &part.unknowns, share * size);
         } else {
-            let share = (beginning + 1 - SHAKES.len()) as f64 / (BEGINNINGS - SHAKES.len()) as f64;
+            let share = ((beginning - SHAKES.len()) % ROUND + 1) as f64 / ROUND as f64;
             for j in &part.unknowns {
                 let reach = if angles.contains(j) { PI } else { size };
                 place[*j] += share * reach * random.signed();
