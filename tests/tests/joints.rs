@@ -226,6 +226,7 @@ ukcore::multibody! {
             wheel: wheel(a.at(3 * p), b.at(r), d, l)
             rack: rack(a.at(p), b.at(2 * r), d, l)
             gear: gear(a, b, l, turned)
+            motor: turn(a, b) = sin(2 * t)
             rod: rod(a.at(p), b.at(r), l)
         }
     }
@@ -236,9 +237,9 @@ fn rows_of_planar_joints_are_those_of_rotations() {
     let mut random = Random::new(8);
     let mechanism: ukcore::Prepared = Flat::default().prepared();
     for _ in 0..50 {
-        let q = random.vector(6);
+        let (t, q) = (random.signed(), random.vector(6));
         let mut phi = vec![0.0; Flat::SPEC.holonomic];
-        mechanism.residual(0.0, &q, &mut phi);
+        mechanism.residual(t, &q, &mut phi);
         let (p, r, d) = (
             Vector2::new(0.3, -0.2),
             Vector2::new(0.1, 0.4),
@@ -274,6 +275,7 @@ fn rows_of_planar_joints_are_those_of_rotations() {
             &[seen(b(2.0 * r) - a(p)).0 + 0.7 * relative],
         );
         close("gear", &[Flat::GEAR], &[0.7 * q[2] + 0.4 * q[5]]);
+        close("motor", &[Flat::MOTOR], &[relative - (2.0 * t).sin()]);
         close("rod", &[Flat::ROD], &[(b(r) - a(p)).norm_squared() - 0.49]);
     }
 }

@@ -135,6 +135,7 @@ fn ukcore() {
             "scan",
             "random",
             "rounding",
+            "interval",
             "zero",
             "spec",
             "plan",

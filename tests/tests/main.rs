@@ -31,6 +31,7 @@ mod linkage;
 mod machines;
 mod misses;
 mod modes;
+mod nearest;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

@@ -7,7 +7,8 @@
 //!
 //! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
 //! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
-//! mechanism together; of those found the nearest in that metric is taken, over all that depends on the choice.
+//! mechanism together; the nearest in that metric is taken, over all that depends on the choice. Where interval arithmetic shows that none
+//! is nearer than the first one found, as near a good sketch, the search ends there; else two dozen more begin all around the guess.
 
 use crate::diagnose;
 use crate::error::Error;
@@ -16,6 +17,8 @@ use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
 use crate::spec::{GuessKind, Spec};
 
+mod alone;
+mod by_parts;
 mod search;
 
 pub(crate) use search::Search;
@@ -123,8 +126,9 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
 ///
-/// Where what is held leaves as many constraints as coordinates, states lie apart, and the one with the least Σ M_jj Δq_j² is looked for; where
-/// coordinates stay free it is the one that the search from the guess leads to.
+/// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
+/// looked for: a far guess has two dozen searches begin around it, which may miss one. Where coordinates stay free the state is the one that
+/// the search from the guess leads to. [`branches`](crate::branches()) tells of others that are as near.
 ///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in

@@ -1,8 +1,8 @@
 //! All the ways to put a mechanism together near a guess.
 //!
-//! Searches begin at the guess and at places all around it; from where each ends, the nearest place to the guess is sought within its
-//! branch, by Gauss and Newton's method along the constraints. Distances are measured by the root of inertia, over the coordinates that the
-//! guess tells of.
+//! Where no coordinate stays free they are those that assembly compares. Else searches begin at the guess and at places all around it; from
+//! where each ends, the nearest place to the guess is sought within its branch, by Gauss and Newton's method along the constraints.
+//! Distances are measured by the root of inertia, over the coordinates that the guess tells of.
 
 use nalgebra::DVector;
 
@@ -39,8 +39,9 @@ const NONE: f64 = 1e-7;
 const STEPS: usize = 60;
 
 /// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved
-/// and the other ways that are as near. It searches two dozen times, so it is for looking rather than for loops; branches far from the
-/// guess may be missed.
+/// and the other ways that are as near. Where coordinates stay free it searches two dozen times, so it is for looking rather than for
+/// loops, and branches far from the guess may be missed. Where none does, ways are compared by what hangs together: of the legs of a walker
+/// each other way is that of one leg, as near as this one is.
 ///
 /// # Errors
 /// What [`assemble`](crate::assemble()) reports.
@@ -51,8 +52,7 @@ pub fn branches(
 ) -> Result<Assembled, Error> {
     let mech: Prepared = mechanism.into();
     let held = Held::both(held(mech.spec(), hold)?);
-    let told: Vec<usize> = (0..mech.spec().n()).collect();
-    branches_of(&mech, guess, &held, &told)
+    branches_of(&mech, guess, &held)
 }
 
 impl Prepared {
@@ -62,22 +62,23 @@ impl Prepared {
     /// # Errors
     /// What [`Prepared::start`] reports.
     pub fn branches(&self, name: &str, options: &StartOptions) -> Result<Assembled, Error> {
-        let Said { guess, held, told } = self.said(name, options)?;
-        branches_of(self, &guess, &held, &told)
+        let Said { guess, held } = self.said(name, options)?;
+        branches_of(self, &guess, &held)
     }
 }
 
-/// [`branches`] near a guess that tells of the coordinates `told` alone.
-fn branches_of(
-    mech: &Prepared,
-    guess: &State,
-    held: &Held,
-    told: &[usize],
-) -> Result<Assembled, Error> {
+/// [`branches`] near a guess, with coordinates held by their positions.
+fn branches_of(mech: &Prepared, guess: &State, held: &Held) -> Result<Assembled, Error> {
     guess.check(mech)?;
     diagnose::inertias(mech)?;
     let units = units(&mass_matrix(mech, guess));
-    let weight = |j: usize| if told.contains(&j) { 1.0 } else { UNTOLD };
+    let weight = |j: usize| {
+        if held.untold.contains(&j) {
+            UNTOLD
+        } else {
+            1.0
+        }
+    };
     let mut ways = Ways {
         mech,
         guess,
@@ -86,23 +87,15 @@ fn branches_of(
         units,
         found: Vec::new(),
     };
-    ways.seek();
-    ways.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    let nearest = ways.found.first().map_or(0.0, |way| way.distance);
-    let none = NONE * largest(&guess.q).max(1.0) * ways.weights.amax();
-    let bound = AS_NEAR * nearest.max(none);
-    let near = ways.found.iter().take_while(|way| way.distance <= bound);
-    let states = near.filter_map(|way| {
-        let q = way.q.clone();
-        Search::velocities(mech, guess, held, q).ok()
-    });
+    let states = ways.near().into_iter();
+    let states = states.filter_map(|q| Search::velocities(mech, guess, held, q).ok());
     let mut states: Vec<State> = states.collect();
     if states.is_empty() {
         // It says why.
         states.push(assembled(mech, guess, held.clone())?);
     }
     let state = states.remove(0);
-    Ok(ways.assembled(state, states, told))
+    Ok(ways.assembled(state, states))
 }
 
 /// A place on the constraints, and how far it is from the guess.
@@ -123,6 +116,24 @@ struct Ways<'a> {
 }
 
 impl Ways<'_> {
+    /// The nearest, then those that are as near.
+    fn near(&mut self) -> Vec<Vec<f64>> {
+        let (mech, guess) = (self.mech, self.guess);
+        let none = NONE * largest(&guess.q).max(1.0) * self.weights.amax();
+        let mut search = Search::new(mech, guess, &self.held.positions);
+        search.untold.clone_from(&self.held.untold);
+        let at = At::new(mech, Level::Position, guess.t, &guess.v);
+        if let Some(ways) = search.ways(&at, &guess.q, (AS_NEAR, none)) {
+            return ways;
+        }
+        self.seek();
+        self.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let nearest = self.found.first().map_or(0.0, |way| way.distance);
+        let bound = AS_NEAR * nearest.max(none);
+        let near = self.found.iter().take_while(|way| way.distance <= bound);
+        near.map(|way| way.q.clone()).collect()
+    }
+
     fn seek(&mut self) {
         let (mech, guess) = (self.mech, self.guess);
         let mut search = Search::new(mech, guess, &self.held.positions);
@@ -226,11 +237,11 @@ impl Ways<'_> {
         }
     }
 
-    fn assembled(&self, state: State, alternatives: Vec<State>, told: &[usize]) -> Assembled {
+    fn assembled(&self, state: State, alternatives: Vec<State>) -> Assembled {
         let size = largest(&self.guess.q).max(1.0);
         let change = |j: &usize| state.q[*j] - self.guess.q[*j];
-        let mut moved: Vec<usize> = told.to_vec();
-        moved.retain(|j| change(j).abs() > NONE * size);
+        let mut moved: Vec<usize> = (0..state.q.len()).collect();
+        moved.retain(|j| !self.held.untold.contains(j) && change(j).abs() > NONE * size);
         let far = |j: &usize| (change(j) / self.units[*j]).abs();
         moved.sort_by(|a, b| far(b).total_cmp(&far(a)));
         let coords = self.mech.spec().coords;

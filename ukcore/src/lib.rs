@@ -43,6 +43,7 @@ pub mod explain;
 #[cfg(test)]
 mod fixture;
 mod integrate;
+mod interval;
 mod inverse;
 mod kinematics;
 pub mod lanes;

@@ -28,7 +28,6 @@ mod search;
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
 pub(crate) use parts::{Part, parts};
-pub(crate) use search::Reached;
 
 use newton::Steps;
 use rank_revealing::Factors;

@@ -74,14 +74,14 @@ impl Noise {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);
         let m = self.rows.len();
-        for c in 0..m {
-            let entry = |j: usize| {
-                jacobian[j * m + c].abs() > share * self.terms.jacobian[j * m + c].bound()
-            };
-            if !(0..self.q.len()).any(|j| !held.contains(&j) && entry(j)) {
-                let row = jacobian.iter_mut().skip(c).step_by(m);
-                row.for_each(|a| *a = 0.0);
-            }
+        let pattern = self.mechanism.spec().structure.jacobian_pattern;
+        let mut counts = vec![false; m];
+        for &(c, j) in pattern {
+            let (entry, rounding) = (jacobian[j * m + c], self.terms.jacobian[j * m + c]);
+            counts[c] |= entry.abs() > share * rounding.bound() && !held.contains(&j);
+        }
+        for &(c, j) in pattern.iter().filter(|(c, _)| !counts[*c]) {
+            jacobian[j * m + c] = 0.0;
         }
     }
 

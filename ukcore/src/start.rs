@@ -108,10 +108,8 @@ impl Prepared {
     ///   not finite.
     /// - [`Error::NotAssembled`] where no state near what it says satisfies all constraints.
     pub fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let Said { guess, held, told } = self.said(name, options)?;
-        let untold = (0..self.spec().n()).filter(|j| !told.contains(j));
-        let untold = untold.collect();
-        assembled(self, &guess, Held { untold, ..held })
+        let Said { guess, held } = self.said(name, options)?;
+        assembled(self, &guess, held)
     }
 
     /// What the declared start called `name` says with `options`.
@@ -124,8 +122,11 @@ impl Prepared {
             q: vec![0.0; n],
             v: vec![0.0; n],
         };
-        let (held, told) = (Held::default(), Vec::new());
-        let mut said = Said { guess, held, told };
+        let held = Held {
+            untold: (0..n).collect(),
+            ..Held::default()
+        };
+        let mut said = Said { guess, held };
         self.guess(place.unwrap_or(0), &chosen.values, &mut |told| {
             let (values, held) = match told.kind {
                 GuessKind::Position => (&mut said.guess.q, &mut said.held.positions),
@@ -134,7 +135,7 @@ impl Prepared {
             values[told.coordinate] = told.value;
             held.extend(told.held.then_some(told.coordinate));
             match told.kind {
-                GuessKind::Position => said.told.push(told.coordinate),
+                GuessKind::Position => said.held.untold.retain(|j| *j != told.coordinate),
                 GuessKind::Velocity => {}
                 GuessKind::Omega | GuessKind::Spin => {
                     said.held.turning.push((told.coordinate, told.kind));
@@ -150,6 +151,4 @@ pub(crate) struct Said {
     /// 0 where it says nothing.
     pub(crate) guess: State,
     pub(crate) held: Held,
-    /// The coordinates of whose position it says something.
-    pub(crate) told: Vec<usize>,
 }

@@ -76,7 +76,7 @@ macro_rules! legs {
                 let at_knee = |n, s, angle| bent(s, at_pin(n, angle), b, j, 1);
                 let at_back = |n, s, angle| bent(s, at_knee(n, s, angle), d, e, 1);
                 let at_heel = |n, s, angle| meet(at_back(n, s, angle), at_low(n, s, angle) - at_back(n, s, angle), f, g, 2 * s - 1);
-                let lies = |u, v| [(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, atan2(v[1] - u[1], v[0] - u[0])];
+                let direction = |u, v| atan2(v[1] - u[1], v[0] - u[0]);
                 /// crank at an angle, turning
                 start turning(
                     /// Angle of the crank
@@ -87,12 +87,12 @@ macro_rules! legs {
                     crank.angle = angle
                     crank.omega = speed
                     for n in 0..PAIRS { for s in 0..SIDES {
-                        [bar_j[n][s].x, bar_j[n][s].y, bar_j[n][s].angle] near lies(at_pin(n, angle), at_knee(n, s, angle)),
-                        [bar_k[n][s].x, bar_k[n][s].y, bar_k[n][s].angle] near lies(at_pin(n, angle), at_low(n, s, angle)),
-                        [bar_c[n][s].x, bar_c[n][s].y, bar_c[n][s].angle] near lies(hip(s), at_low(n, s, angle)),
-                        [bar_f[n][s].x, bar_f[n][s].y, bar_f[n][s].angle] near lies(at_back(n, s, angle), at_heel(n, s, angle)),
-                        [thigh[n][s].x, thigh[n][s].y, thigh[n][s].angle] near lies(hip(s), at_knee(n, s, angle)),
-                        [foot[n][s].x, foot[n][s].y, foot[n][s].angle] near lies(at_low(n, s, angle), at_heel(n, s, angle)),
+                        bar_j[n][s].angle near direction(at_pin(n, angle), at_knee(n, s, angle)),
+                        bar_k[n][s].angle near direction(at_pin(n, angle), at_low(n, s, angle)),
+                        bar_c[n][s].angle near direction(hip(s), at_low(n, s, angle)),
+                        bar_f[n][s].angle near direction(at_back(n, s, angle), at_heel(n, s, angle)),
+                        thigh[n][s].angle near direction(hip(s), at_knee(n, s, angle)),
+                        foot[n][s].angle near direction(at_low(n, s, angle), at_heel(n, s, angle)),
                     } }
                 }
             }

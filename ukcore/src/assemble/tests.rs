@@ -178,3 +178,35 @@ fn conflicts_are_named() {
         }
     );
 }
+
+/// Where no other state can be nearer one search is made, and where one may be all of them: the rod of length 1 at x = 0.6 ends at ±0.8.
+#[test]
+fn other_states_are_searched_for_where_one_may_be_nearer() {
+    let mech = Pendulum::default().prepared();
+    let found = |y: f64| {
+        let guess = state(0.0, &[0.6, y], &[0.0; 2]);
+        let mut search = Search::new(&mech, &guess, &[0]);
+        let at = At::new(&mech, Level::Position, 0.0, &guess.v);
+        (search.find(&at, &guess.q).unwrap()[1], search.begun)
+    };
+    for sign in [1.0, -1.0] {
+        // What is no farther from the guess than the end is on the same side of y = 0 where |y| > 0.4.
+        for y in [0.8, 0.7, 0.45, 1.1, 100.0] {
+            let (end, begun) = found(sign * y);
+            assert_abs_diff_eq!(end, sign * 0.8, epsilon = 1e-14);
+            assert_eq!(begun, 1, "{y}");
+        }
+        for y in [0.35, 0.01, 1e-9] {
+            let (end, begun) = found(sign * y);
+            assert_abs_diff_eq!(end, sign * 0.8, epsilon = 1e-14);
+            assert!(begun >= 28, "{y}: {begun}");
+        }
+    }
+    // A linear row has one solution, whatever the guess is.
+    let mech = Springs::default().prepared();
+    let guess = state(0.0, &[1.0, 9.0], &[0.0; 2]);
+    let mut search = Search::new(&mech, &guess, &[0]);
+    let at = At::new(&mech, Level::Position, 0.0, &guess.v);
+    search.find(&at, &guess.q).unwrap();
+    assert_eq!(search.begun, 1);
+}

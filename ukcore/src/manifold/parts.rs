@@ -29,9 +29,9 @@ impl Part {
         self.rows.iter().copied()
     }
 
-    /// Whether there are as many rows as unknowns, so that solutions, if no row depends on others, lie apart.
+    /// Whether there are as many rows as unknowns, or more, so that solutions lie apart, unless rows depend on others.
     pub(crate) fn is_determined(&self) -> bool {
-        self.rows.len() == self.unknowns.len()
+        self.rows.len() >= self.unknowns.len()
     }
 }
 

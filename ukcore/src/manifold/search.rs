@@ -22,21 +22,13 @@ const DAMPING_FACTOR: f64 = 10.0;
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
 
-/// In a part of a mechanism rounding is measured, which takes the whole mechanism, where the search begins, and where the sum of squares
-/// has fallen to this share.
-const CLOSE: f64 = 1e-8;
+/// In a part of a mechanism rounding is measured, which takes the whole mechanism, where the guess is, and where the sum of squares has
+/// fallen to this share.
+const CLOSE: f64 = 1e-16;
 
 /// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
 /// rest.
 const NEAR: f64 = 1.5e-8;
-
-/// Where a search has ended.
-pub(crate) struct Reached {
-    /// 0 on the constraints, else the sum of the squares of their scaled residuals where it is least.
-    pub(crate) cost: f64,
-    /// The second step as a share of the first one: what second derivatives make of it.
-    pub(crate) bend: f64,
-}
 
 /// The best place so far: residuals and A there, of the rows and unknowns of a part, each row scaled to unit norm, each column by how
 /// readily its coordinate moves.
@@ -127,7 +119,7 @@ impl Manifold {
         let held = &self.newton.acceptance.held;
         let free = (0..x.len()).filter(|j| !held.contains(j)).collect();
         let whole = Part::whole(at.rows(), free);
-        let Reached { cost, .. } = self.search_part(at, &whole, guess, x);
+        let cost = self.search_part(at, &whole, guess, x);
         let ease = &self.newton.acceptance.ease;
         let met = self.meets(at, x, Size::of(guess, ease));
         let near = met || cost == 0.0;
@@ -137,20 +129,23 @@ impl Manifold {
         cost
     }
 
-    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs.
+    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns 0,
+    /// or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search_part(
         &mut self,
         at: &At<'_, f64>,
         part: &Part,
         guess: &[f64],
         x: &mut [f64],
-    ) -> Reached {
+    ) -> f64 {
         let size = Size::of(guess, &self.newton.acceptance.ease);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
-        let (mut near, mut steps, mut begun) = (None, Vec::new(), 0.0_f64);
+        let (mut near, mut begun) = (None, 0.0_f64);
         let whole = part.rows.len() == at.rows();
+        // Points that coincide, and leave rows without a direction, are those of the guess.
+        let drawn = part.unknowns.iter().all(|j| x[*j] == guess[*j]);
         self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             let trial = best
                 .as_ref()
@@ -161,7 +156,7 @@ impl Manifold {
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 newton.acceptance.size = size;
                 newton.weigh(at, x);
-                let measured = whole || steps.is_empty() || trial <= CLOSE * begun;
+                let measured = whole || drawn && best.is_none() || trial <= CLOSE * begun;
                 if measured {
                     newton.measure(at, x, noise, None);
                 }
@@ -186,7 +181,6 @@ impl Manifold {
             let Some(step) = best.step(damping * cost.sqrt().min(1.0)) else {
                 return (0.0, 0.0);
             };
-            steps.push(step.norm());
             let back = newton.step.iter_mut().zip(&best.x).zip(x);
             back.for_each(|((d, best), x)| *d = best - x);
             for (j, d) in part.unknowns.iter().zip(step.iter()) {
@@ -201,10 +195,6 @@ impl Manifold {
             self.meets(at, x, size);
             self.newton.is_near(part)
         });
-        let first = steps.first().copied().unwrap_or(0.0);
-        Reached {
-            cost: if near { 0.0 } else { cost },
-            bend: steps.get(1).map_or(0.0, |second| second / first),
-        }
+        if near { 0.0 } else { cost }
     }
 }

@@ -9,6 +9,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use crate::error::Error;
+use crate::interval::Interval;
 use crate::mechanism::{Branch, Energy, Mechanism, Terms};
 use crate::plan::Plan;
 use crate::rounding::Rounded;
@@ -79,6 +80,8 @@ pub trait Face: Send + Sync + 'static {
     fn sloped(&self) -> &'static dyn Dynamics<Sloped>;
     /// In numbers that add up their rounding.
     fn rounded(&self) -> &'static dyn Equations<Rounded>;
+    /// In numbers that may vary.
+    fn varied(&self) -> &'static dyn Equations<Interval>;
 }
 
 /// The functions of `M`.
@@ -107,6 +110,9 @@ impl<M: Mechanism> Face for Of<M> {
         &Of::<M>(PhantomData)
     }
     fn rounded(&self) -> &'static dyn Equations<Rounded> {
+        &Of::<M>(PhantomData)
+    }
+    fn varied(&self) -> &'static dyn Equations<Interval> {
         &Of::<M>(PhantomData)
     }
 }
@@ -408,6 +414,11 @@ impl Prepared {
     /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
     pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Equations<Rounded>> {
         self.lift(self.code.face().rounded(), Rounded::exact)
+    }
+
+    /// This mechanism in numbers that may vary, with its parameters, which do not, and held branches.
+    pub(crate) fn varied(&self) -> Prepared<Interval, dyn Equations<Interval>> {
+        self.lift(self.code.face().varied(), Interval::exact)
     }
 
     fn lift<T: Scalar, C: ?Sized + Equations<T>>(

@@ -22,7 +22,7 @@ impl Random {
 }
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 124] = [
+const PIECES: [&str; 131] = [
     "pub",
     "T",
     "{",
@@ -147,6 +147,13 @@ const PIECES: [&str; 124] = [
     "m = 1.0 [kg]",
     "x [m/s]",
     "[-]",
+    "start s(p = 30 [deg]) {",
+    "near",
+    "until 2.0",
+    "dot(b.centre) near",
+    "draw {",
+    "trace(b.at([1, 0]))",
+    "text([x, y], \"s\")",
 ];
 
 /// A declaration that works, to be damaged.
@@ -194,6 +201,13 @@ const UNITS: &str = "pub T { const N: usize = 2; const G: f64 = 9.81 [m/s^2]; pa
     nonideal { a[0]: friction(dot(a[0]), 1 [mm] * norm(reaction(p))) } output { o [mm] = x, w [rpm] = b.omega } integral { e [mJ] = tau * b.omega } \
     start s(p0 = 30 [deg], v = (1 + 2) [m/s]) { a[0] = p0; dot(x) near v; b.x near 1 } }";
 
+/// One with starts and a picture, to be damaged.
+const DRAWN: &str = "pub T { const N: usize = 2; params { l = 0.5 } bodies { for i in 0..N { planar link[i] { mass: 1, inertia: 0.1, centre: [l / 2, 0] } } } \
+    holonomic { o: pin(ground.at([0, 0]), link[0].at([0, 0])); p: pin(link[0].at([l, 0]), link[1].at([0, 0])) } let tip = link[1].at([l, 0]); \
+    /// Drawn out\n start out(/// Angle\n a = 30 [deg], v = 1.0) until 2.0 { link[0].angle = a; for i in 0..N { dot(link[i].angle) = v - i } [link[1].x, link[1].y] near l * [1, sin(a)] } \
+    start down { link[1].centre near [0, -l]; dot(link[1].centre) near 0; link[0].omega = 1 } \
+    draw { for i in 0..N { line(link[i].at([0, 0]), link[i].at([l, 0])) } polyline([0, 0], link[0].centre, tip) circle(tip, l / 5) spring(tip, [1, 0]) trace(tip) text(tip, \"tip\") } }";
+
 /// A source that is told where the test fails.
 struct Told<'a>(&'a str);
 
@@ -215,7 +229,7 @@ fn survives(source: &str) {
 
 #[test]
 fn the_whole_declarations_compile() {
-    for source in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS] {
+    for source in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS, DRAWN] {
         let (_, errors) = expand(source);
         assert!(errors.is_empty(), "{errors:?}");
     }
@@ -264,7 +278,7 @@ fn damaged_declarations() {
             random.below(12),
             random.below(PIECES.len()),
         );
-        for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS] {
+        for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS, DRAWN] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());

@@ -1,0 +1,360 @@
+//! The search where equations fall apart, or have solutions that lie apart: all that may be nearer than the one that is found first.
+
+use std::f64::consts::{PI, TAU};
+
+use super::alone::Alone;
+use super::search::Search;
+use crate::manifold::{At, Part};
+use crate::random::Random;
+use crate::scan::{largest, largest_difference};
+
+/// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
+/// coincide has vanishing gradients, from which only a perturbation leads away.
+pub(super) const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
+
+/// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and rounds of others that are ever
+/// farther off. After the first round they end when each solution has been met twice: the chance that the next one leads to a solution not
+/// yet met is about the share of those met once (Good 1953, The population frequencies of species, Biometrika 40, 237-264).
+const BEGINNINGS: usize = SHAKES.len() + ROUNDS * ROUND;
+
+/// Random beginnings of one round.
+const ROUND: usize = 24;
+
+/// Rounds at most.
+const ROUNDS: usize = 5;
+
+/// Random beginnings are the same in every search.
+const SEED: u64 = 0x5eed;
+
+/// Solutions nearer than this share of the coordinates are one.
+const SAME: f64 = 1e-6;
+
+/// What the guess does not tell of counts so little.
+const UNTOLD: f64 = 1e-6;
+
+/// After so many searches for one guess parts have one solution each.
+const MOST: usize = 20_000;
+
+/// The search for the solution next to the guess, one part after the other.
+pub(super) struct ByParts<'a> {
+    search: &'a mut Search,
+    alone: Alone,
+    at: &'a At<'a, f64>,
+    guess: &'a [f64],
+    parts: &'a [Part],
+}
+
+/// A solution of some parts.
+pub(super) struct Found {
+    pub(super) x: Vec<f64>,
+    /// Σ (Δq √inertia)² of their unknowns, from the guess where it tells of them.
+    pub(super) distance: f64,
+}
+
+/// What is found straight from the guess, part by part: where, and for each part that has a solution how far it is.
+struct Straight {
+    x: Vec<f64>,
+    distances: Vec<Option<f64>>,
+}
+
+impl Straight {
+    /// How far the parts `group` are, if all have a solution.
+    fn distance(&self, group: &[usize]) -> Option<f64> {
+        group.iter().map(|part| self.distances[*part]).sum()
+    }
+}
+
+impl<'a> ByParts<'a> {
+    pub(super) fn new(
+        search: &'a mut Search,
+        at: &'a At<'a, f64>,
+        guess: &'a [f64],
+        parts: &'a [Part],
+    ) -> Self {
+        ByParts {
+            alone: Alone::new(at.mech),
+            search,
+            at,
+            guess,
+            parts,
+        }
+    }
+
+    /// All parts solved as near to the guess as is found.
+    pub(super) fn found_nearest(&mut self) -> Option<Found> {
+        let straight = self.straight();
+        let all: Vec<usize> = (0..self.parts.len()).collect();
+        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(&straight))
+    }
+
+    /// The first solution of each part that is found.
+    fn straight(&mut self) -> Straight {
+        let (mut x, mut distances) = (self.guess.to_vec(), Vec::new());
+        for part in self.parts {
+            let known = |needed: &usize| Option::is_some(&distances[*needed]);
+            let mut random = Random::new(SEED);
+            let found = match part.needs.iter().all(known) {
+                true => (0..BEGINNINGS).find_map(|k| self.begin(part, &x, k, &mut random)),
+                false => None,
+            };
+            distances.push(found.map(|found| {
+                x = found.x;
+                found.distance
+            }));
+        }
+        Straight { x, distances }
+    }
+
+    /// `x` with the parts `open`, in their order, solved, less than `bound` from the guess, as near to it as is found. What hangs together
+    /// through parts that are solved alone is independent; else each solution of the first part is followed, the nearest first. Where all
+    /// before is as it is `straight` from the guess, nothing farther than that is looked for.
+    fn nearest(
+        &mut self,
+        open: &[usize],
+        mut x: Vec<f64>,
+        bound: f64,
+        straight: Option<&Straight>,
+    ) -> Option<Found> {
+        let mut distance = 0.0;
+        for group in self.groups(open) {
+            // From everywhere it was in vain.
+            if straight.is_some_and(|straight| straight.distances[group[0]].is_none()) {
+                return None;
+            }
+            let mut best = straight.and_then(|straight| {
+                let (distance, mut x) = (straight.distance(&group)?, x.clone());
+                let unknowns = group.iter().flat_map(|part| &self.parts[*part].unknowns);
+                unknowns.for_each(|j| x[*j] = straight.x[*j]);
+                Some(Found { x, distance })
+            });
+            let known = straight.filter(|_| best.is_some());
+            let within = |best: &Option<Found>| {
+                let best = best.as_ref().map_or(f64::INFINITY, |best| best.distance);
+                best.min(bound - distance)
+            };
+            let firsts = match within(&best) > 0.0 {
+                true => self.solutions(group[0], &x, within(&best), known),
+                false => Vec::new(),
+            };
+            for first in firsts {
+                let within = within(&best);
+                if first.distance >= within {
+                    break;
+                }
+                let same = |known: &&Straight| {
+                    let mut unknowns = self.parts[group[0]].unknowns.iter();
+                    unknowns.all(|j| first.x[*j] == known.x[*j])
+                };
+                let known = known.filter(same);
+                let rest = self.nearest(&group[1..], first.x, within - first.distance, known);
+                best = rest.map_or(best, |rest| {
+                    Some(Found {
+                        distance: first.distance + rest.distance,
+                        ..rest
+                    })
+                });
+            }
+            let best = best.filter(|best| best.distance < bound - distance)?;
+            (x, distance) = (best.x, distance + best.distance);
+        }
+        Some(Found { x, distance })
+    }
+
+    /// Other solutions of the parts `group`, which need each other, than `nearest`, less than `bound` from the guess, where all before is as
+    /// in `x`: they branch off it in one part, and from there on are the nearest there.
+    pub(super) fn others(
+        &mut self,
+        group: &[usize],
+        nearest: &[f64],
+        x: &[f64],
+        bound: f64,
+        out: &mut Vec<Found>,
+    ) {
+        let (first, rest) = (group[0], &group[1..]);
+        for found in self.solutions(first, x, bound, None) {
+            let left = bound - found.distance;
+            if left <= 0.0 {
+                break;
+            }
+            let unknowns = &self.parts[first].unknowns;
+            let size = largest(&found.x);
+            if (unknowns.iter()).any(|j| (found.x[*j] - nearest[*j]).abs() > SAME * size) {
+                out.extend(self.nearest(rest, found.x, left, None).map(|rest| {
+                    let mut x = nearest.to_vec();
+                    let unknowns = group.iter().flat_map(|part| &self.parts[*part].unknowns);
+                    unknowns.for_each(|j| x[*j] = rest.x[*j]);
+                    let distance = found.distance + rest.distance;
+                    Found { x, distance }
+                }));
+                continue;
+            }
+            let all = self.distance(rest, nearest);
+            for group in self.groups(rest) {
+                let others = all - self.distance(&group, nearest);
+                self.others(&group, nearest, &found.x, left - others, out);
+            }
+        }
+    }
+
+    /// The parts `open`, in those that need each other, be it through others of them.
+    pub(super) fn groups(&self, open: &[usize]) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for part in open {
+            let needed =
+                |group: &Vec<usize>| group.iter().any(|p| self.parts[*part].needs.contains(p));
+            let (joined, mut apart): (Vec<_>, Vec<_>) = groups.into_iter().partition(needed);
+            let mut group: Vec<usize> = joined.into_iter().flatten().collect();
+            group.push(*part);
+            group.sort_unstable();
+            apart.push(group);
+            groups = apart;
+        }
+        groups
+    }
+
+    /// The solutions of a part less than `bound` from the guess that are found, where those that it needs are solved, and maybe others, the
+    /// nearest first; one where they do not lie apart, or where there is no other one. The one `straight` from the guess may be known.
+    fn solutions(
+        &mut self,
+        part: usize,
+        x: &[f64],
+        bound: f64,
+        straight: Option<&Straight>,
+    ) -> Vec<Found> {
+        let distance = straight.and_then(|straight| straight.distances[part]);
+        let part = &self.parts[part];
+        let (mut found, mut random) = (Vec::<Found>::new(), Random::new(SEED));
+        let mut once: Vec<bool> = Vec::new();
+        for beginning in 0..BEGINNINGS {
+            let further = beginning >= SHAKES.len() + ROUND;
+            // Where most are new they do not lie apart.
+            if further && (!once.contains(&true) || 2 * found.len() > ROUND) {
+                break;
+            }
+            let known = straight.zip(distance).filter(|_| beginning == 0);
+            let next = match known {
+                Some((straight, distance)) => {
+                    let mut x = x.to_vec();
+                    part.unknowns.iter().for_each(|j| x[*j] = straight.x[*j]);
+                    Some(Found { x, distance })
+                }
+                None => self.begin(part, x, beginning, &mut random),
+            };
+            let Some(next) = next else {
+                continue;
+            };
+            let same =
+                |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
+            match found.iter().position(same) {
+                Some(known) => once[known] = false,
+                None => {
+                    found.push(next);
+                    once.push(true);
+                }
+            }
+            let first = found[0].distance;
+            if !part.is_determined()
+                || self.search.begun >= MOST
+                || beginning == 0 && self.is_alone(part, x, bound.max(first))
+            {
+                break;
+            }
+        }
+        found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        found
+    }
+
+    /// Whether a solution of `part` less than `distance` from the guess, or as far, is the only one there.
+    fn is_alone(&mut self, part: &Part, x: &[f64], distance: f64) -> bool {
+        let (untold, eases) = (&self.search.untold, self.search.manifold.ease());
+        let ease = |j: usize| eases[j] / weight(untold, j);
+        let reach = distance.sqrt();
+        self.alone
+            .holds(self.at, part, (x, self.guess), (reach, &ease))
+    }
+
+    /// The solution of `part` that a search from the guess leads to, or for other beginnings than the first from somewhere ever farther off.
+    fn begin(
+        &mut self,
+        part: &Part,
+        x: &[f64],
+        beginning: usize,
+        random: &mut Random,
+    ) -> Option<Found> {
+        let size = match largest(self.guess) {
+            size if size > 0.0 => size,
+            _ => 1.0,
+        };
+        let angles = self.at.mech.spec().structure.angles;
+        let mut place = x.to_vec();
+        if let Some(share) = SHAKES.get(beginning) {
+            shake(&mut place, &part.unknowns, share * size);
+        } else {
+            let share = ((beginning - SHAKES.len()) % ROUND + 1) as f64 / ROUND as f64;
+            for j in &part.unknowns {
+                let reach = if angles.contains(j) { PI } else { size };
+                place[*j] += share * reach * random.signed();
+            }
+        }
+        let place = self.search(part, place)?;
+        Some(self.found(part, place))
+    }
+
+    /// `x` with the unknowns of `part` moved to a solution.
+    fn search(&mut self, part: &Part, mut x: Vec<f64>) -> Option<Vec<f64>> {
+        self.search.begun += 1;
+        let manifold = &mut self.search.manifold;
+        let cost = manifold.search_part(self.at, part, self.guess, &mut x);
+        (cost == 0.0).then_some(x)
+    }
+
+    /// A solution, with angles turned to those next to the guess.
+    fn found(&mut self, part: &Part, x: Vec<f64>) -> Found {
+        let mut turned = x.clone();
+        let angles = self.at.mech.spec().structure.angles;
+        for j in part.unknowns.iter().filter(|j| angles.contains(j)) {
+            turned[*j] += TAU * ((self.guess[*j] - x[*j]) / TAU).round();
+        }
+        // An angle may be more than a direction.
+        let turned = (turned != x).then_some(turned);
+        let x = turned
+            .and_then(|turned| self.search(part, turned))
+            .unwrap_or(x);
+        let distance = self.distance_of(part, &x);
+        Found { x, distance }
+    }
+
+    /// Σ (Δq √inertia)² of the unknowns of `part`.
+    fn distance_of(&self, part: &Part, x: &[f64]) -> f64 {
+        let ease = self.search.manifold.ease();
+        let off = |j: &usize| {
+            let off = (x[*j] - self.guess[*j]) / ease[*j];
+            (weight(&self.search.untold, *j) * off).powi(2)
+        };
+        part.unknowns.iter().map(off).sum()
+    }
+
+    /// The same of several parts.
+    pub(super) fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
+        let distances = group
+            .iter()
+            .map(|part| self.distance_of(&self.parts[*part], x));
+        distances.sum()
+    }
+}
+
+/// How much coordinate `j` counts in choosing between solutions.
+fn weight(untold: &[usize], j: usize) -> f64 {
+    if untold.contains(&j) { UNTOLD } else { 1.0 }
+}
+
+/// Moves the coordinates `free` by up to `by`: always in the same way, and no two of them alike.
+pub(super) fn shake(x: &mut [f64], free: &[usize], by: f64) {
+    for (k, &j) in free.iter().enumerate() {
+        let along = ((k as f64 + 1.0) * GOLDEN).fract();
+        x[j] += by * (2.0 * along - 1.0);
+    }
+}
