@@ -152,12 +152,7 @@ pub(super) fn between(
 
 /// The constraints that are lost at `start`, where branches cross, as a motion with the velocities `v` would find them from beside it;
 /// `size` is that of the coordinates.
-pub(super) fn at(
-    mech: &Prepared,
-    start: Sample<'_>,
-    v: &[f64],
-    size: f64,
-) -> Option<Vec<String>> {
+pub(super) fn at(mech: &Prepared, start: Sample<'_>, v: &[f64], size: f64) -> Option<Vec<String>> {
     let beside = |(share, tilt): (f64, f64)| {
         // A direction of f's own gradient shows nothing of the others.
         let speed = largest(v);
@@ -171,7 +166,9 @@ pub(super) fn at(
         let there = (found.t - start.t).abs() < BESIDE * way;
         (there && (found.gap == 0.0 || found.gap.is_nan())).then_some(found.constraints)
     };
-    let all = SHARES.into_iter().flat_map(|share| [0.0, 0.5].map(|tilt| (share, tilt)));
+    let all = SHARES
+        .into_iter()
+        .flat_map(|share| [0.0, 0.5].map(|tilt| (share, tilt)));
     let moves = v.iter().any(|v| *v != 0.0);
     all.filter(|_| moves).find_map(beside)
 }

@@ -175,7 +175,11 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
         return Vec::new();
     }
     let speed = largest(&there.v);
-    let way = if speed > 0.0 { BEGUN * size / speed } else { 0.0 };
+    let way = if speed > 0.0 {
+        BEGUN * size / speed
+    } else {
+        0.0
+    };
     let pairs = start.q.iter().zip(&there.v);
     let beside: Vec<f64> = pairs.map(|(q, v)| q + way * v).collect();
     let sizes = |q: &[f64]| -> Vec<f64> {
