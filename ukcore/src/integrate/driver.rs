@@ -242,10 +242,8 @@ impl Driver<'_> {
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
         if self.gap.is_none() {
-            let (t, y) = self.passage.before.get_or_insert_default();
-            *t = self.equations.course.now.t;
-            y.clear();
-            y.extend_from_slice(self.scheme.start());
+            let now = self.equations.course.now.t;
+            self.passage.keep(now, self.scheme.start());
         }
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();

@@ -11,6 +11,7 @@ use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
 use crate::integrate::{Method, Outcome, Singular, Tolerance};
+use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -44,6 +45,9 @@ const SEEN: f64 = 0.2;
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
+/// So many steps of one size before and behind a position are made by longer ones.
+const BACK: usize = 8;
+
 /// What is known of the singular position next to where the run stands.
 #[derive(Default)]
 pub(super) struct Passage {
@@ -63,13 +67,23 @@ pub(super) struct Passage {
     turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
-    /// Time and state at the start of the last step, where steps are of one size.
-    pub(super) before: Option<(f64, Vec<f64>)>,
+    /// Times and states at the starts of the last steps, the first one first, where steps are of one size.
+    before: VecDeque<(f64, Vec<f64>)>,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
 }
 
 impl Passage {
+    /// A step from this time and state is accepted.
+    pub(super) fn keep(&mut self, now: f64, state: &[f64]) {
+        let full = self.before.len() >= BACK;
+        let oldest = full.then(|| self.before.pop_front()).flatten();
+        let (_, mut y) = oldest.unwrap_or_default();
+        y.clear();
+        y.extend_from_slice(state);
+        self.before.push_back((now, y));
+    }
+
     /// The tolerance of the step in hand, in a run with this one.
     pub(super) fn tolerance(&self, mut tolerance: Tolerance) -> Tolerance {
         if let Some(position) = &self.ahead {
@@ -163,7 +177,8 @@ impl Driver<'_> {
         let course = &mut self.equations.course;
         let (left, h) = (course.ahead(position.t), course.h.abs());
         let turn = Some(position.gap).filter(|gap| gap.is_finite());
-        let size = (2.0 * left.max(0.0)).max(h) + turn.unwrap_or(0.0).max(0.0);
+        let around = BACK as f64 * h;
+        let size = (2.0 * left).max(around) + turn.unwrap_or(0.0).max(0.0);
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
@@ -173,13 +188,10 @@ impl Driver<'_> {
         settings.tolerance.absolute *= finer;
         settings.first_step = None;
         settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
-        // From far enough away: the last step may have gone just before the position.
+        // From far enough away: steps of the one size are short, and the last one may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
-        let before = self
-            .passage
-            .before
-            .take()
-            .filter(|_| (0.0..h).contains(&left));
+        let near = (0.0..around).contains(&left);
+        let before = self.passage.before.drain(..).next().filter(|_| near);
         let (t, start) = before.unwrap_or_else(|| here.clone());
         let problem = &mut *self.equations.problem;
         // Steps of one size may have come so near that they kept to the constraints no longer.
