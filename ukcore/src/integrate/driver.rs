@@ -163,6 +163,7 @@ impl Driver<'_> {
             if let Some(outcome) = self.detour()? {
                 return Ok(outcome);
             }
+            self.retreat()?;
             let goal = self.goal.take();
             self.approach(goal.is_some());
             let planned = goal.as_ref().map(|goal| goal.trial).or(self.passage.beyond);
@@ -241,10 +242,7 @@ impl Driver<'_> {
         let interpolated = self.stay(trial, error)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
-        if self.gap.is_none() {
-            let now = self.equations.course.now.t;
-            self.passage.keep(now, self.scheme.start());
-        }
+        (self.passage).keep(self.equations.course.now, self.scheme.start());
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
         self.rounded += usize::from(error * rounding > 1.0);

@@ -11,7 +11,7 @@ use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::Projector;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
-use crate::solver::{RANK_CEILING, Solver, SolverOptions};
+use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -201,6 +201,36 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
         true => crossing::at(mechanism, start, &there.v, size).unwrap_or_default(),
         false => lost,
     }
+}
+
+/// The error of a run that begins at rest where branches cross, with an acceleration along none of them: a motion that had it for its
+/// velocity would contradict the constraints. Such a run would take any.
+pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Error> {
+    let State { t, q, v } = start;
+    let spec = mechanism.spec();
+    if spec.m() == 0 || !spec.structure.scleronomic || v.iter().any(|v| *v != 0.0) {
+        return None;
+    }
+    let mut acceleration = vec![0.0; q.len()];
+    if spec.structure.straight_line {
+        let certificate = mechanism.acceleration(*t, q, v, &mut acceleration);
+        if Accepted::WHOLE.has(certificate) {
+            return None;
+        }
+    }
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
+    solver.acceleration(*t, q, v, &mut acceleration).ok()?;
+    let there = State {
+        v: acceleration.clone(),
+        ..start.clone()
+    };
+    let along = solver.acceleration(*t, q, &there.v, &mut acceleration);
+    let trouble = Trouble::new(Sample::from(&there), along.err()?);
+    let constraints = match trouble.is_contradiction() {
+        true => lost_at_start(mechanism, start.into(), &there),
+        false => Vec::new(),
+    };
+    (!constraints.is_empty()).then(|| start.locate(Error::Singular { constraints }))
 }
 
 /// The error of a run from `start` with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration
