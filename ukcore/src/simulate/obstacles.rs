@@ -163,7 +163,8 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
 }
 
 /// The constraints that have no gradient at `start`, or are implied there by the others and not beside it, where a motion that is to leave
-/// `start` as the state of a contradiction says would contradict them: branches cross there, and it goes along none of them.
+/// `start` as the state of a contradiction says would contradict them: branches cross there, and it goes along none of them. Constraints
+/// that change with time may come apart by themselves.
 fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<String> {
     let spec = mechanism.spec();
     let size = match largest(start.q) {
@@ -171,7 +172,8 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
         size => size,
     };
     let mut pairs = start.q.iter().zip(&there.q);
-    if pairs.any(|(a, b)| (a - b).abs() > BEGUN * size) {
+    let begun = pairs.all(|(a, b)| (a - b).abs() <= BEGUN * size);
+    if !(begun && spec.structure.scleronomic) {
         return Vec::new();
     }
     let speed = largest(&there.v);
