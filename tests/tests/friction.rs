@@ -2,8 +2,9 @@
 //! it is held and how it goes on.
 
 use tests::{assert_all_close, assert_close};
+use ukcore::simulate::Switching;
 use ukcore::simulate::{Direction, Ending, Sample};
-use ukcore::{Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
+use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 /// A puck on a spring from the origin, rubbed by a force of size `f`.
 macro_rules! puck {
@@ -51,6 +52,11 @@ puck!(
     /// Softened, but stiff at rest.
     Softened,
     1.0 / sqrt(sq(dot(x)) + sq(dot(y)) + 1e-12)
+);
+puck!(
+    /// Softened at velocities far below those of the motion.
+    Hardly,
+    1.0 / sqrt(sq(dot(x)) + sq(dot(y)) + 1e-16)
 );
 
 ukcore::multibody! {
@@ -203,6 +209,68 @@ fn a_puck_that_a_spring_pulls_on_goes_on_through_rest() {
             let off = off(&run, along, |t| slides(q, v, k, t));
             assert!(off < 10.0 * tolerance.sqrt(), "{label}: {off:e}");
         }
+    }
+}
+
+/// Steps that go across all switches, as those of ensembles, are told as soon that they come to nothing.
+#[test]
+fn a_puck_at_rest_ends_runs_across_switches_and_members_of_ensembles() {
+    let told = |label: &str, error: &Error, k: f64| {
+        let Error::At { t, q, source, .. } = error else {
+            panic!("{label}: {error}")
+        };
+        let rest = LINES[2].map(|x| x * slides(0.0, 2.0, k, *t));
+        assert!(
+            matches!(&**source, Error::Chattering { terms, .. } if terms.len() == 2),
+            "{label}: {source}"
+        );
+        assert_all_close(label, q, &rest, 1e-7);
+    };
+    for k in [0.0, 3.0] {
+        for (name, mechanism) in forms(k) {
+            for method in METHODS {
+                let run = run(&mechanism, LINES[2], 0.0, 2.0).method(method);
+                let failure = run.switching(Switching::Ignored).until(9.0);
+                let failure = failure.expect_err(name);
+                told(name, &failure.error, k);
+                assert!(failure.trajectory.work().steps < 1000, "{name}, {method}");
+            }
+        }
+        let puck = Hypot {
+            k,
+            ..Hypot::default()
+        };
+        let start = |v: f64| State {
+            t: 0.0,
+            q: vec![0.0; 2],
+            v: LINES[2].map(|x| x * v).to_vec(),
+        };
+        // One of them does not come to rest before the end.
+        let members = vec![(puck.clone(), start(2.0)), (puck, start(50.0))];
+        let ends = Ensemble::new(members).max_steps(2000).until(1.0);
+        let [rests, slides_on] = <[_; 2]>::try_from(ends).expect("two members");
+        told("ensemble", &rests.expect_err("rest"), k);
+        let there = slides(0.0, 50.0, k, 1.0);
+        let end = slides_on.expect("it slides").end.q;
+        assert_all_close("end", &end, &LINES[2].map(|x| x * there), 1e-6);
+    }
+}
+
+/// What the messages of other methods advise: near rest velocities are known better than stiff positions would let them be.
+#[test]
+fn a_puck_that_is_hardly_softened_comes_to_rest_by_radau() {
+    let hardly = Hardly::default().prepared();
+    for (along, tolerance) in LINES
+        .into_iter()
+        .flat_map(|l| [1e-8, 1e-9, 1e-11].map(|t| (l, t)))
+    {
+        let run = run(&hardly, along, 0.0, 2.0)
+            .method(Method::Radau5)
+            .tolerance(tolerance);
+        let run = run.max_steps(500).until(5.0);
+        let run = run.unwrap_or_else(|failure| panic!("{along:?}, {tolerance:e}: {failure}"));
+        let off = off(&run, along, |t| slides(0.0, 2.0, 0.0, t));
+        assert!(off < 20.0 * tolerance, "{along:?}, {tolerance:e}: {off:e}");
     }
 }
 

@@ -6,6 +6,7 @@ mod bodies;
 mod branches;
 mod certificate;
 mod closed_forms;
+mod crossings;
 mod derivatives;
 mod diagnosis;
 mod directions;

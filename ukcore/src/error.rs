@@ -108,7 +108,7 @@ pub enum Error {
     /// apex of a cone, or the run begins or ends too close to it.
     #[error(
         "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end the run \
-         before it, or change lengths or the start such that the position is met exactly or missed by more",
+         before it, start it elsewhere, or change lengths or the start such that the position is met exactly on the way or missed by more",
         quoted(constraints)
     )]
     Singular {

@@ -293,7 +293,7 @@ impl Simulation {
                 let first = self.mechanism.energy(start.t, &start.q, &start.v);
                 (false, Some(EnergyWatch::new(step, first)))
             }
-            _ => (self.switching == Switching::Located && has_switches, None),
+            _ => (self.switching == Switching::Located, None),
         };
         let mut solver = Solver::new(&self.mechanism, recorder.trajectory.options);
         match recorder.trajectory.projected {
@@ -302,7 +302,8 @@ impl Simulation {
         }
         let mut run = Run {
             solver,
-            located: located.then(|| self.mechanism.sloped()),
+            located,
+            sloped: has_switches.then(|| self.mechanism.sloped()),
             columns: None,
             energy,
             recorder,

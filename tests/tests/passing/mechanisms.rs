@@ -112,6 +112,33 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A plate on three parallel cranks of one length, with their bearings on a line: one row follows from the others anywhere, two where the
+    /// cranks lie in the line.
+    pub(super) Plate {
+        params { r = 0.8, g = 0.0, s[3] = [-1.0, 0.3, 1.1] }
+        coords { x, y, a }
+        mass { x: 1.0, y: 1.0, a: 0.4 }
+        potential { g * y }
+        holonomic { for i in 0..3 { crank[i]: sq(x + s[i] * cos(a) - s[i]) + sq(y + s[i] * sin(a)) = sq(r) } }
+    }
+}
+
+ukcore::multibody! {
+    /// A four-bar of points on a sphere with equal opposite arcs: ground from (1, 0, 0) to (0.28, 0.96, 0).
+    pub(super) Sphere {
+        params { g = 0.0 }
+        coords { p[3], k[3] }
+        mass { p: 1.0, k: 1.0 }
+        potential { g * p[2], g * k[2] }
+        holonomic {
+            first: sq(p[0]) + sq(p[1]) + sq(p[2]) = 1.0, second: sq(k[0]) + sq(k[1]) + sq(k[2]) = 1.0,
+            crank: p[0] = 0.6, rocker: 0.28 * k[0] + 0.96 * k[1] = 0.6,
+            coupler: p[0] * k[0] + p[1] * k[1] + p[2] * k[2] = 0.28,
+        }
+    }
+}
+
 /// A mechanism and its start with a crank at 0.3 that turns at some rate, and how far a state is off the branch it started on.
 pub(super) struct Case {
     pub(super) mechanism: Prepared,
@@ -120,7 +147,7 @@ pub(super) struct Case {
 }
 
 pub(super) const ANGLE: f64 = 0.3;
-pub(super) const CASES: [fn(f64) -> Case; 8] = [
+pub(super) const CASES: [fn(f64) -> Case; 11] = [
     |w| crank(1.0, 0.0, w),
     |w| crank(1.0, 9.81, w),
     crank_pendulum,
@@ -129,6 +156,9 @@ pub(super) const CASES: [fn(f64) -> Case; 8] = [
     parallelograms,
     four_bars,
     kite,
+    |w| plate(0.0, w),
+    |w| plate(9.81, w),
+    sphere,
 ];
 
 /// A rod of length `l` beside a crank of length 1.
@@ -273,6 +303,56 @@ pub(super) fn kite(w: f64) -> Case {
             let angle: f64 = s.q[1].atan2(s.q[0]);
             let (sin, cos) = (0.5 * angle).sin_cos();
             (s.q[3] * cos - s.q[2] * sin).abs()
+        },
+    }
+}
+
+pub(super) fn plate(g: f64, w: f64) -> Case {
+    let (s, c) = ANGLE.sin_cos();
+    Case {
+        mechanism: Plate {
+            g,
+            ..Plate::default()
+        }
+        .prepared(),
+        start: State {
+            t: 0.0,
+            q: vec![0.8 * c, 0.8 * s, 0.0],
+            v: vec![-0.8 * s * w, 0.8 * c * w, 0.0],
+        },
+        off: |s| s.q[2].abs(),
+    }
+}
+
+/// The half turn about p + (0.28, 0.96, 0) takes (1, 0, 0) to this place.
+fn across(p: &[f64]) -> [f64; 3] {
+    let axis = [p[0] + 0.28, p[1] + 0.96, p[2]];
+    let share = 2.0 * axis[0] / axis.iter().map(|x| x * x).sum::<f64>();
+    [share * axis[0] - 1.0, share * axis[1], share * axis[2]]
+}
+
+/// The branch that a half turn maps onto itself.
+pub(super) fn sphere(w: f64) -> Case {
+    let (s, c) = ANGLE.sin_cos();
+    let place = |angle: f64| {
+        let p = [0.6, 0.8 * angle.cos(), 0.8 * angle.sin()];
+        [p, across(&p)].concat()
+    };
+    // The velocity of k by a central difference, to nine digits; the run begins at the nearest one on the constraints.
+    let step = 1e-5;
+    let pairs = place(ANGLE + step).into_iter().zip(place(ANGLE - step));
+    let mut v: Vec<f64> = pairs.map(|(a, b)| w * (a - b) / (2.0 * step)).collect();
+    (v[1], v[2]) = (-0.8 * s * w, 0.8 * c * w);
+    Case {
+        mechanism: Sphere::default().prepared(),
+        start: State {
+            t: 0.0,
+            q: place(ANGLE),
+            v,
+        },
+        off: |s| {
+            let pairs = across(&s.q[..3]).into_iter().zip(&s.q[3..]);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         },
     }
 }

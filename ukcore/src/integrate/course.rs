@@ -273,6 +273,12 @@ impl Course {
         self.h = self.along * self.h.abs().min(largest.abs());
     }
 
+    /// Whether the last steps may have been about the zero of a length, as far as the state tells.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn is_slow(&self) -> bool {
+        self.pace.is_slow()
+    }
+
     /// The error of a motion that is driven onto the zeros of `switches`, from either side of them.
     pub(crate) fn stuck(&mut self, switches: &[usize]) -> Error {
         self.trouble = None;

@@ -163,6 +163,7 @@ impl Driver<'_> {
             if let Some(outcome) = self.detour()? {
                 return Ok(outcome);
             }
+            self.retreat()?;
             let goal = self.goal.take();
             self.approach(goal.is_some());
             let planned = goal.as_ref().map(|goal| goal.trial).or(self.passage.beyond);
@@ -241,12 +242,7 @@ impl Driver<'_> {
         let interpolated = self.stay(trial, error)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
-        if self.gap.is_none() {
-            let (t, y) = self.passage.before.get_or_insert_default();
-            *t = self.equations.course.now.t;
-            y.clear();
-            y.extend_from_slice(self.scheme.start());
-        }
+        (self.passage).keep(self.equations.course.now, self.scheme.start());
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
         self.rounded += usize::from(error * rounding > 1.0);

@@ -28,6 +28,11 @@ impl Trouble {
         (all_finite(at.q) && all_finite(at.v)).then(|| Box::new(Trouble::new(at, error)))
     }
 
+    /// Whether constraints contradict each other.
+    pub(crate) fn is_contradiction(&self) -> bool {
+        contradiction(&self.error).is_some()
+    }
+
     /// The error with its place.
     pub(crate) fn into_error(self) -> Error {
         Sample::from(&self.state).locate(self.error)
@@ -193,6 +198,11 @@ impl Pace {
             }
         }
         self.size = h.abs();
+    }
+
+    /// All switches of the equations.
+    pub(super) fn switches(&self) -> &'static [SwitchSpec] {
+        self.switches
     }
 
     /// Whether the last steps may have been about the zero of a length, as far as the state tells.

@@ -9,6 +9,7 @@
 use crate::assemble::State;
 use crate::dense::Dense;
 use crate::integrate::Singular;
+use crate::integrate::sample::Sample;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
 use crate::pinv::{Decomposition, axpy, dot};
@@ -40,6 +41,10 @@ const WIDEST: f64 = 2.0;
 /// Differences of A for the second derivatives of f are taken over this share of the coordinates; these are known to the share `BENT`.
 const DIFFERENCE: f64 = 1e-5;
 const BENT: f64 = 1e-3;
+
+/// Shares of the coordinates by which a place beside a singular position is off it, and of that way by which it is found again.
+const SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
+const BESIDE: f64 = 0.1;
 
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
@@ -143,6 +148,29 @@ pub(super) fn between(
             constraints: names.collect(),
         })
     })
+}
+
+/// The constraints that are lost at `start`, where branches cross, as a motion with the velocities `v` would find them from beside it;
+/// `size` is that of the coordinates.
+pub(super) fn at(mech: &Prepared, start: Sample<'_>, v: &[f64], size: f64) -> Option<Vec<String>> {
+    let beside = |(share, tilt): (f64, f64)| {
+        // A direction of f's own gradient shows nothing of the others.
+        let speed = largest(v);
+        let tilted = v.iter().zip([1.0, -0.6, 0.3, -0.8, 0.5].iter().cycle());
+        let v: Vec<f64> = tilted.map(|(v, part)| v + tilt * part * speed).collect();
+        let way = share * size / speed;
+        let mut q = start.q.to_vec();
+        axpy(way, &v, &mut q);
+        let t = start.t + way;
+        let found = find(mech, &State { t, q, v }, None)?;
+        let there = (found.t - start.t).abs() < BESIDE * way;
+        (there && (found.gap == 0.0 || found.gap.is_nan())).then_some(found.constraints)
+    };
+    let all = SHARES
+        .into_iter()
+        .flat_map(|share| [0.0, 0.5].map(|tilt| (share, tilt)));
+    let moves = v.iter().any(|v| *v != 0.0);
+    all.filter(|_| moves).find_map(beside)
 }
 
 /// Whether a row of A that is small at a state, beside its `size`, says something there that the others do not.

@@ -11,13 +11,16 @@ use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::Projector;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
-use crate::solver::{RANK_CEILING, Solver, SolverOptions};
+use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
 
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
+
+/// A motion that has gone no further than this share of the coordinates has only begun.
+const BEGUN: f64 = 1e-3;
 
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
 ///
@@ -159,9 +162,93 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     })
 }
 
-/// The error of a run with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration that has
-/// them so.
-pub(super) fn explain(mechanism: &Prepared, tolerance: Tolerance, mut trouble: Trouble) -> Error {
+/// The constraints that have no gradient at `start`, or are implied there by the others and not beside it, where a motion that is to leave
+/// `start` as the state of a contradiction says would contradict them: branches cross there, and it goes along none of them. Constraints
+/// that change with time may come apart by themselves.
+fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<String> {
+    let spec = mechanism.spec();
+    let size = match largest(start.q) {
+        0.0 => 1.0,
+        size => size,
+    };
+    let mut pairs = start.q.iter().zip(&there.q);
+    let begun = pairs.all(|(a, b)| (a - b).abs() <= BEGUN * size);
+    if !(begun && spec.structure.scleronomic) {
+        return Vec::new();
+    }
+    let speed = largest(&there.v);
+    let way = if speed > 0.0 {
+        BEGUN * size / speed
+    } else {
+        0.0
+    };
+    let pairs = start.q.iter().zip(&there.v);
+    let beside: Vec<f64> = pairs.map(|(q, v)| q + way * v).collect();
+    let sizes = |q: &[f64]| -> Vec<f64> {
+        let mut jacobian = vec![0.0; spec.n() * spec.m()];
+        mechanism.jacobian(start.t, q, &there.v, &mut jacobian);
+        let rows = Rows {
+            jacobian: &jacobian,
+            stride: spec.m(),
+            rows: spec.m(),
+        };
+        (0..spec.holonomic).map(|c| rows.largest(c)).collect()
+    };
+    let pairs = sizes(start.q).into_iter().zip(sizes(&beside));
+    let lost = pairs.enumerate().filter(|(_, (a, b))| *a < BEGUN * b);
+    let lost: Vec<String> = lost
+        .map(|(c, _)| spec.constraints[c].name.to_owned())
+        .collect();
+    match lost.is_empty() {
+        true => crossing::at(mechanism, start, &there.v, size).unwrap_or_default(),
+        false => lost,
+    }
+}
+
+/// The error of a run that begins at rest where branches cross, with an acceleration along none of them: a motion that had it for its
+/// velocity would contradict the constraints. Such a run would take any.
+pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Error> {
+    let State { t, q, v } = start;
+    let spec = mechanism.spec();
+    if spec.m() == 0 || !spec.structure.scleronomic || v.iter().any(|v| *v != 0.0) {
+        return None;
+    }
+    let mut acceleration = vec![0.0; q.len()];
+    if spec.structure.straight_line {
+        let certificate = mechanism.acceleration(*t, q, v, &mut acceleration);
+        if Accepted::WHOLE.has(certificate) {
+            return None;
+        }
+    }
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
+    solver.acceleration(*t, q, v, &mut acceleration).ok()?;
+    let there = State {
+        v: acceleration.clone(),
+        ..start.clone()
+    };
+    let along = solver.acceleration(*t, q, &there.v, &mut acceleration);
+    let trouble = Trouble::new(Sample::from(&there), along.err()?);
+    let constraints = match trouble.is_contradiction() {
+        true => lost_at_start(mechanism, start.into(), &there),
+        false => Vec::new(),
+    };
+    (!constraints.is_empty()).then(|| start.locate(Error::Singular { constraints }))
+}
+
+/// The error of a run from `start` with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration
+/// that has them so.
+pub(super) fn explain(
+    mechanism: &Prepared,
+    start: Sample<'_>,
+    tolerance: Tolerance,
+    mut trouble: Trouble,
+) -> Error {
+    if trouble.is_contradiction() {
+        let constraints = lost_at_start(mechanism, start, &trouble.state);
+        if !constraints.is_empty() {
+            trouble = Trouble::new(start, Error::Singular { constraints });
+        }
+    }
     if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
         let State { t, q, v } = &trouble.state;
         let mut acceleration = vec![0.0; q.len()];

@@ -23,8 +23,10 @@ pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;
 /// The simulation as a problem for the integrator.
 pub(super) struct Run<'s> {
     pub(super) solver: Solver,
-    /// For the derivatives of switching functions, if steps are to go onto their zeros.
-    pub(super) located: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
+    /// Whether steps are to go onto the zeros of switching functions.
+    pub(super) located: bool,
+    /// For the derivatives of these, if there are some.
+    pub(super) sloped: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
     /// For a method with a fixed step.
@@ -72,7 +74,12 @@ impl Run<'_> {
             Outcome::Stopped => {}
             Outcome::Failed(trouble) => {
                 let mechanism = trajectory.mechanism();
-                return Err(obstacles::explain(mechanism, settings.tolerance, trouble));
+                return Err(obstacles::explain(
+                    mechanism,
+                    start,
+                    settings.tolerance,
+                    trouble,
+                ));
             }
         }
         Ok(())
@@ -175,8 +182,8 @@ impl Problem for Run<'_> {
 
     fn switches(&self) -> usize {
         match self.located {
-            Some(_) => self.recorder.trajectory.spec().switches.len(),
-            None => 0,
+            true => self.recorder.trajectory.spec().switches.len(),
+            false => 0,
         }
     }
 
@@ -186,7 +193,7 @@ impl Problem for Run<'_> {
     }
 
     fn switching_rate(&mut self, at: Sample<'_>, acceleration: &[f64], values: &mut [f64]) {
-        let Some(mechanism) = &self.located else {
+        let Some(mechanism) = &self.sloped else {
             return;
         };
         let sloped = |x: f64, rate: f64| Sloped::new(x, Slopes::new(|_| rate));

@@ -3,7 +3,7 @@
 use super::agenda::Agenda;
 use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
-use super::{START_BOUND, Simulation, angles};
+use super::{START_BOUND, Simulation, angles, obstacles};
 use crate::assemble::State;
 use crate::diagnose;
 use crate::error::Error;
@@ -28,6 +28,9 @@ impl Simulation {
         let mut trajectory = self.trajectory();
         let mut projector = Projector::new(&self.mechanism);
         let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
+        if let Some(error) = obstacles::leaves_no_branch(&self.mechanism, &start) {
+            return Err(error);
+        }
         // The accuracy of RATTLE is that of its step.
         let relative = match self.method {
             Method::Rattle { .. } => RATTLE,

@@ -6,11 +6,12 @@
 
 use super::{Driver, Refusal};
 use crate::error::Error;
-use crate::integrate::course::Trial;
+use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
 use crate::integrate::{Method, Outcome, Singular, Tolerance};
+use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -44,6 +45,15 @@ const SEEN: f64 = 0.2;
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
+/// So many steps of one size before and behind a position are made by longer ones.
+const BACK: usize = 8;
+
+/// Of the way to a position at least this share is gone at once.
+const LEAST: f64 = 0.1;
+
+/// Steps over a position that are less than this share of what they might be are to begin before.
+const SHORT: f64 = 0.8;
+
 /// What is known of the singular position next to where the run stands.
 #[derive(Default)]
 pub(super) struct Passage {
@@ -63,13 +73,23 @@ pub(super) struct Passage {
     turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
-    /// Time and state at the start of the last step, where steps are of one size.
-    pub(super) before: Option<(f64, Vec<f64>)>,
+    /// Places and states at the starts of the last steps, the first one first.
+    before: VecDeque<(Place, Vec<f64>)>,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
 }
 
 impl Passage {
+    /// A step from this place and state is accepted.
+    pub(super) fn keep(&mut self, now: Place, state: &[f64]) {
+        let full = self.before.len() >= BACK;
+        let oldest = full.then(|| self.before.pop_front()).flatten();
+        let mut y = oldest.map_or_else(Vec::new, |(_, y)| y);
+        y.clear();
+        y.extend_from_slice(state);
+        self.before.push_back((now, y));
+    }
+
     /// The tolerance of the step in hand, in a run with this one.
     pub(super) fn tolerance(&self, mut tolerance: Tolerance) -> Tolerance {
         if let Some(position) = &self.ahead {
@@ -146,7 +166,8 @@ impl Driver<'_> {
             passage.distance = 0.5 * (to - from) * size;
             return;
         } else {
-            course.limit(0.5 * left);
+            // So that the next step, as long as this might be, goes over it.
+            course.limit((left - middle * h).max(LEAST * left));
         }
         passage.distance = left - course.h.abs();
     }
@@ -163,7 +184,8 @@ impl Driver<'_> {
         let course = &mut self.equations.course;
         let (left, h) = (course.ahead(position.t), course.h.abs());
         let turn = Some(position.gap).filter(|gap| gap.is_finite());
-        let size = (2.0 * left.max(0.0)).max(h) + turn.unwrap_or(0.0).max(0.0);
+        let around = BACK as f64 * h;
+        let size = (2.0 * left).max(around) + turn.unwrap_or(0.0).max(0.0);
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
@@ -173,13 +195,11 @@ impl Driver<'_> {
         settings.tolerance.absolute *= finer;
         settings.first_step = None;
         settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
-        // From far enough away: the last step may have gone just before the position.
+        // From far enough away: steps of the one size are short, and the last one may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
-        let before = self
-            .passage
-            .before
-            .take()
-            .filter(|_| (0.0..h).contains(&left));
+        let near = (0.0..around).contains(&left);
+        let before = self.passage.before.drain(..).next().filter(|_| near);
+        let before = before.map(|(place, y)| (place.t, y));
         let (t, start) = before.unwrap_or_else(|| here.clone());
         let problem = &mut *self.equations.problem;
         // Steps of one size may have come so near that they kept to the constraints no longer.
@@ -218,6 +238,36 @@ impl Driver<'_> {
             }
             outcome => Ok(Some(outcome)),
         }
+    }
+
+    /// Goes back to the start of the last step where a position shows up so near ahead that a step over it would be short beside those of the
+    /// motion, with stages too near to it.
+    pub(super) fn retreat(&mut self) -> Result<(), Error> {
+        let (Some([from, to]), Some(position)) = (self.gap, &self.passage.ahead) else {
+            return Ok(());
+        };
+        let course = &mut self.equations.course;
+        let left = course.ahead(position.t);
+        let short = left < SHORT * 0.5 * (from + to) * course.h.abs();
+        let known = !self.passage.untried || self.shown.is_some();
+        let crossed = position.gap == 0.0 && left > 0.0;
+        if known || !crossed || !short || !self.equations.switches.is_empty() {
+            return Ok(());
+        }
+        let Some((place, y)) = self.passage.before.pop_back() else {
+            return Ok(());
+        };
+        self.passage.before.clear();
+        self.passage.untried = false;
+        self.shown = Some((course.now.t, self.scheme.start().to_vec()));
+        course.now = place;
+        self.scheme.end_mut().copy_from_slice(&y);
+        self.scheme.advance();
+        let begun = self.scheme.begin(&mut self.equations);
+        begun.map_err(|cause| {
+            self.equations.course.blame(cause);
+            Error::too_small(0.0)
+        })
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.

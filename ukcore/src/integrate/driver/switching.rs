@@ -93,13 +93,11 @@ impl Driver<'_> {
     /// The last step is accepted: where it went onto zeros of switches, the next one begins in their other branches. Returns whether it
     /// did.
     pub(super) fn arrive(&mut self) -> Result<bool, Error> {
-        if self.equations.switches.is_empty() {
-            return Ok(false);
-        }
         let landed = !self.equations.switches.targets.is_empty();
         self.landings += usize::from(landed);
         let targets = self.equations.arrive(self.scheme.start());
         let targets = targets.map_err(|stuck| self.stuck(stuck))?;
+        // Steps go across lengths, whether they go onto other switches or not.
         if self.equations.course.pace.is_slow() {
             let across = self.equations.carried_across(self.scheme.start());
             self.equations.course.pace.across(&across)?;

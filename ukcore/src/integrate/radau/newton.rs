@@ -103,6 +103,9 @@ enum Known {
 /// that are not.
 const CAUTION: f64 = 10.0;
 
+/// What the equations may be off, or a further change be, after one iteration, in the error norm.
+const LEFT: f64 = 0.03;
+
 /// How the iterations ended.
 pub(super) enum Solved {
     /// They converged.
@@ -368,7 +371,7 @@ impl Newton {
             (square / n.max(1) as f64).sqrt()
         };
         let before = self.size;
-        if self.iterations > 1 || norm(residual) <= 1.0 {
+        if self.iterations > 1 || norm(residual) <= LEFT {
             return Ok(true);
         }
         let left = match (self.matrices, &mut self.stages) {
@@ -385,7 +388,7 @@ impl Newton {
                 norm(residual)
             }
         };
-        if left <= 1.0 && left <= 0.5 * before {
+        if left <= LEFT && left <= 0.5 * before {
             return Ok(true);
         }
         let anew = self.matrices == Matrices::Stages;
@@ -524,14 +527,25 @@ impl Newton {
     }
 
     /// Size in the error norm of changes that may be rounding: a stiff force multiplies the rounding of positions by as much as the
-    /// matrices divide by, so that positions keep theirs, and velocities have that of positions by λ/h.
+    /// matrices divide by, so that positions keep theirs, and velocities have that of positions by λ/h; a force that is not so stiff gives
+    /// them that of its impulse.
     fn rounding(&self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
         let n = self.n;
         let (q, v) = y.split_at(n);
+        let by_stages = self.stages.iter().flat_map(|stages| &stages.jacobians);
+        let by_stages = by_stages.filter(|_| self.matrices == Matrices::Stages);
+        let mut force = vec![0.0_f64; n];
+        for jacobian in by_stages.chain([&self.jacobian]) {
+            for (i, force) in force.iter_mut().enumerate() {
+                let terms = (0..n).map(|j| (jacobian[j * n + i] * q[j]).abs());
+                *force = terms.sum::<f64>().max(*force);
+            }
+        }
         let mut square = 0.0;
         for i in 0..n {
             let position = q[i].abs() + (h * v[i]).abs();
-            let velocity = v[i].abs() + q[i].abs() / (h.abs() * REAL);
+            let stiff = q[i].abs() / (h.abs() * REAL);
+            let velocity = v[i].abs() + stiff.min(h.abs() * force[i]);
             square += (position * weights[i]).powi(2) + (velocity * weights[n + i]).powi(2);
         }
         ROUNDING * f64::EPSILON * (square / (2.0 * n.max(1) as f64)).sqrt()

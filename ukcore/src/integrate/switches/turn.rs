@@ -122,13 +122,22 @@ impl Equations<'_> {
         self.moving(switches, y, out)
     }
 
-    /// The switches whose functions are positive and get to zero within the step proposed from here, at the rate that they have here.
+    /// The switches whose functions are positive and get to zero within the step proposed from here, at the rate that they have here;
+    /// none where q̈ has no value.
     pub(in crate::integrate) fn carried_across(&mut self, y: &[f64]) -> Vec<usize> {
-        let h = self.course.h;
-        let values = self.switches.values.clone();
-        let positive = values.iter().enumerate().filter(|(_, g)| **g > 0.0);
-        let positive: Vec<usize> = positive.map(|(k, _)| k).collect();
-        self.moving(&positive, y, |k, _, rate| values[k] + h * rate < 0.0)
+        let (s, h) = (self.course.now.s, self.course.h);
+        let at = self.at(s, y);
+        let mut acceleration = vec![0.0; at.v.len()];
+        if self.acceleration(s, y, &mut acceleration).is_err() {
+            return Vec::new();
+        }
+        // Of all of them, be they located or not.
+        let mut values = vec![0.0; self.course.pace.switches().len()];
+        let mut rates = values.clone();
+        self.problem.switching(at, &mut values);
+        self.problem.switching_rate(at, &acceleration, &mut rates);
+        let across = |k: &usize| values[*k] > 0.0 && values[*k] + h * rates[*k] < 0.0;
+        (0..values.len()).filter(across).collect()
     }
 
     /// Those of `switches` whose functions stay as they are.

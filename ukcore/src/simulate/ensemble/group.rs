@@ -277,13 +277,13 @@ impl<'a> Group<'a> {
         }
     }
 
-    /// Members that meet a place where A loses a row go on alone, from their start.
+    /// Members that meet what lanes do not get across go on alone, from their start.
     fn watch(&mut self) {
         let alive = self.members.alive.clone();
         let stepper = &self.stepper;
         let mut lost = Vec::new();
         for (k, running) in self.members.running(&alive) {
-            if running.loses_a_row(|| stepper.states().map(|y| lane(y, k))) {
+            if running.leaves(|| stepper.states().map(|y| lane(y, k))) {
                 lost.push((k, running.index));
             }
         }

@@ -1,6 +1,7 @@
 //! A member under way in a lane.
 
 use super::Member;
+use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{
@@ -14,6 +15,8 @@ use crate::solver::SolverWork;
 /// A member under way.
 pub(super) struct Running {
     pub(super) index: usize,
+    /// Where it began.
+    start: State,
     pub(super) course: Course,
     pub(super) size: StepSize,
     /// The step in hand.
@@ -40,6 +43,7 @@ impl Running {
             trial: Trial::default(),
             settings,
             recorder,
+            start,
             rows: RowWatch::new(Method::Dop853, settings.tolerance.relative),
         })
     }
@@ -73,8 +77,12 @@ impl Running {
         projection_norm(excess.into_iter(), [old, raw], tolerance) <= PROJECTION_LIMIT
     }
 
-    /// Whether A loses a row on the step in hand, from and to the states that `state` gives, so that the member is to go on alone.
-    pub(super) fn loses_a_row(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
+    /// Whether the member is to go on alone: steps are short about what may be the zero of a length, or A loses a row on the step in hand,
+    /// from and to the states that `states` gives.
+    pub(super) fn leaves(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
+        if self.course.is_slow() {
+            return true;
+        }
         let mechanism = self.recorder.trajectory.mechanism();
         if mechanism.spec().m() == 0 {
             return false;
@@ -119,7 +127,8 @@ impl Running {
         let here = Sample::of(self.course.now.t, y);
         let trouble = self.course.explain(error, here);
         let mechanism = self.recorder.trajectory.mechanism();
-        obstacles::explain(mechanism, self.settings.tolerance, trouble)
+        let start = Sample::from(&self.start);
+        obstacles::explain(mechanism, start, self.settings.tolerance, trouble)
     }
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.
