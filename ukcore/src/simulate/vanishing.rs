@@ -17,8 +17,8 @@ use crate::mechanism::Prepared;
 use crate::pinv::dot;
 use crate::zero::locate;
 
-/// Rows are looked at again before they have changed by this share of themselves, going on as they did, and after this many times the time
-/// since they were looked at last.
+/// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
+/// this many times the time since they were looked at last.
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
 
@@ -79,6 +79,8 @@ pub(super) struct RowWatch {
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
+    /// A where it was looked at before that.
+    past: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
     /// What has become of rows between both.
@@ -94,6 +96,8 @@ pub(super) struct RowWatch {
     share: f64,
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
+    /// By what [`Compared`] calls a bend, what a change gains in as much time again.
+    gain: f64,
     /// When to look again.
     due: f64,
 }
@@ -210,9 +214,23 @@ impl RowWatch {
         between.take(mech, Sample::from(&state));
         between.measure(&self.leaves);
         let found = self.smallest(&between, Sample::from(&state))?;
+        let row = found.row;
+        let mut ends = [0.0; 2];
+        for (length, at) in ends.iter_mut().zip([old, new]) {
+            let mut end = Matrix::default();
+            end.take(mech, at);
+            end.measure(&self.leaves);
+            *length = end.length(row);
+        }
+        // It comes to rest beside the place, and the step is short enough to see that.
+        let most = ends[0].max(ends[1]);
+        if between.length(row) > CHANGE * most {
+            return None;
+        }
         Some(Vanishing {
             near: between_states(old, new, (part - BEFORE).max(0.0)),
             rest: true,
+            reached: most / found.size,
             ..found
         })
     }
@@ -259,7 +277,19 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let [seen, here] = [&self.seen.entries[..], &self.here.entries];
         let (squares, products) = (&mut self.here.squares, &mut self.products);
-        self.compared = self.leaves.compare([seen, here], squares, products);
+        // Where nothing came before, as from rest: the change from there is all there is of it.
+        let ratio = (self.here.t - self.seen.t) / (self.seen.t - self.past.t);
+        let (past, ratio) = match ratio.is_finite() {
+            true => (&self.past.entries[..], ratio),
+            false => (seen, 0.0),
+        };
+        let compared = (self.leaves).compare([past, seen, here], ratio, squares, products);
+        self.compared = compared;
+        // In the middle of the time between the first two it was as fast as it went there on an average.
+        self.gain = 2.0 * ratio / (1.0 + ratio);
+        if ratio == 0.0 {
+            self.gain = 2.0;
+        }
         (self.share, self.asked) = (1.0, None);
         let kept = self.compared.kept;
         if !self.together || kept && self.leaves.are_all() {
@@ -300,10 +330,16 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let Compared { rows, own, kept } = self.compared;
-        let mut change = match self.together && kept && self.leaves.are_all() {
-            true => own,
-            false => rows,
+        let Compared {
+            rows,
+            own,
+            rows_bend,
+            own_bend,
+            kept,
+        } = self.compared;
+        let [mut change, mut bend] = match self.together && kept && self.leaves.are_all() {
+            true => [own, own_bend],
+            false => [rows, rows_bend],
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         if let Some(which) = self.asked
@@ -313,8 +349,9 @@ impl RowWatch {
             let left = beside.share(here, here).unwrap_or(0.0).sqrt();
             let before = self.left[which];
             change = STEEPER * (rows / left).max((before - left) / left);
+            bend = STEEPER * rows_bend / left;
             if kept {
-                change = change.max(own);
+                (change, bend) = (change.max(own), bend.max(own_bend));
             }
             self.left[which] = left;
         }
@@ -324,7 +361,12 @@ impl RowWatch {
                 *size = square.sqrt();
             }
         }
-        self.due = t + (t - self.seen.t) * (CHANGE / change).min(LONGEST);
+        // In x times the time between both it changes by (change + gain) x + gain x².
+        let gain = 0.5 * self.gain * bend;
+        let fast = change + gain;
+        let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
+        self.due = t + (t - self.seen.t) * times.min(LONGEST);
+        std::mem::swap(&mut self.past, &mut self.seen);
         std::mem::swap(&mut self.seen, &mut self.here);
     }
 
