@@ -146,6 +146,21 @@ impl Manifold {
         Ok(self.factors.doubts())
     }
 
+    /// Whether a row of A changes by more than half of itself between two places: a Newton step that long is none from nearby.
+    pub(super) fn overshoots(&mut self, at: &At<'_, f64>, [x, y]: [&[f64]; 2]) -> bool {
+        at.jacobian(x, &mut self.newton.jacobian);
+        let before = self.newton.jacobian.clone();
+        at.jacobian(y, &mut self.newton.jacobian);
+        let m = at.mech.spec().m();
+        (0..at.rows()).any(|c| {
+            let pairs = before.iter().zip(&self.newton.jacobian).skip(c).step_by(m);
+            let sums = pairs.fold([0.0; 3], |[a, b, change], (x, y)| {
+                [a + x * x, b + y * y, change + (y - x) * (y - x)]
+            });
+            4.0 * sums[2] > sums[0].min(sums[1])
+        })
+    }
+
     /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.
     pub(super) fn settle(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<(), Error> {
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {

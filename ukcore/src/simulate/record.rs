@@ -307,7 +307,7 @@ impl States for Within<'_, '_> {
             work,
             ..
         } = self;
-        let most = self.error.at(largest(v));
+        let most = [largest(q), largest(v)].map(|size| self.error.at(size));
         let again = |y: &mut [f64]| {
             if let Some(interpolant) = &step.interpolant {
                 interpolant.state(t, y);

@@ -31,6 +31,9 @@ const STEEPER: f64 = 2.0;
 /// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
 const DIP: f64 = 0.25;
 
+/// A row that is no more than this share, √ε, of what it is a step later is zero as far as the state tells.
+const NOTHING: f64 = 1.5e-8;
+
 /// A row that is this share of what it has been is near to vanishing.
 const SMALL: f64 = 1.0 / 32.0;
 
@@ -181,6 +184,9 @@ impl RowWatch {
         if reversed && self.look_back(mech, old) {
             self.compare(mech);
         }
+        if let Some(found) = first.then(|| self.begins(mech, old, new)).flatten() {
+            return Some(Loss::Row(found));
+        }
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
@@ -235,16 +241,43 @@ impl RowWatch {
         })
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
+    /// The row that is zero where the motion begins at rest, if one is: it may leave in any direction.
+    fn begins(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+        if old.v.iter().any(|v| *v != 0.0) {
+            return None;
+        }
+        let mut pairs = self.seen.squares.iter().zip(&self.here.squares);
+        let row = pairs.position(|(x, y)| *x < NOTHING * NOTHING * y)?;
+        let size = self.here.length(row);
+        let reached = self.seen.length(row) / size;
+        (row < mech.spec().holonomic).then(|| Vanishing {
+            row,
+            size,
+            near: between_states(old, new, BEFORE),
+            t: new.t,
+            least: reached,
+            reached,
+            rest: true,
+        })
+    }
+
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way, which
+    /// need not be on the constraints, has not only turned where the others leave it little.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
         let asked = self.asked.filter(|_| self.share == 0.0)?;
         let independence = self.independence[asked].as_mut()?.as_mut()?;
         let ends = [&self.seen.entries[..], &self.here.entries[..]];
+        let [first, last] = ends.map(|a| independence.left(a));
+        // Where a combination has least left, and how much.
+        let mut least = match first < last {
+            true => (first, [0.0, 0.5]),
+            false => (last, [0.5, 1.0]),
+        };
         let mut between = Matrix::default();
         let at = |part: f64| between_states(old, new, part);
         // Parts of the step that are left to look at, the first one last, with A at their ends.
-        let mut left = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
-        while let Some((from, to, [a, b])) = left.pop() {
+        let mut parts = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
+        while let Some((from, to, [a, b])) = parts.pop() {
             if independence.share(&a, &b).is_some() {
                 continue;
             }
@@ -255,10 +288,17 @@ impl RowWatch {
             let middle = 0.5 * (from + to);
             between.take(mech, Sample::from(&at(middle)));
             let c = between.entries.clone();
-            left.push((middle, to, [c.clone(), b]));
-            left.push((from, middle, [a, c]));
+            let left = independence.left(&c);
+            if left < least.0 {
+                least = (left, [from, middle]);
+            }
+            parts.push((middle, to, [c.clone(), b]));
+            parts.push((from, middle, [a, c]));
         }
-        None
+        (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
+            states: Box::new(least.1.map(at)),
+            whole: independence.is_whole(),
+        })
     }
 
     /// Takes A at the start of the step in hand, if it is not known there.
@@ -346,7 +386,7 @@ impl RowWatch {
             && let Some(Some(beside)) = &mut self.independence[which]
         {
             let here = &self.here.entries;
-            let left = beside.share(here, here).unwrap_or(0.0).sqrt();
+            let left = beside.left(here);
             let before = self.left[which];
             change = STEEPER * (rows / left).max((before - left) / left);
             bend = STEEPER * rows_bend / left;
