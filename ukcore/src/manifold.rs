@@ -154,9 +154,8 @@ impl Projector {
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
-    /// depend on the others, or have next to no gradient, so small an error may have it in another branch of the motion, with another
-    /// velocity, or far off. So where the projection changes coordinates or velocities by more than `most` of either there, the state is
-    /// interpolated `again`, and they are as the constraints that are beyond doubt leave them.
+    /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where the projection
+    /// changes velocities by more than `most` there, the state is interpolated `again`, and they are as these constraints leave them.
     ///
     /// # Errors
     /// As [`Projector::position`].
@@ -164,28 +163,14 @@ impl Projector {
         &mut self,
         t: f64,
         y: &mut [f64],
-        most: [f64; 2],
-        again: impl Fn(&mut [f64]),
+        most: f64,
+        again: impl FnOnce(&mut [f64]),
     ) -> Result<[Correction; 2], Error> {
         let n = y.len() / 2;
         let (q, v) = y.split_at_mut(n);
         let corrections = [self.position(t, q, v)?, self.velocity(t, q, v)?];
-        if corrections[0].norm > most[0] {
-            let projected = y.to_vec();
-            again(y);
-            let (q, v) = y.split_at_mut(n);
-            let at = At::new(&self.mechanism, Level::Position, t, v);
-            if self.manifold.overshoots(&at, [q, &projected[..n]]) {
-                if self.manifold.doubts(&at, q)? {
-                    self.settle(t, q, v)?;
-                }
-                return Ok(corrections);
-            }
-            y.copy_from_slice(&projected);
-        }
-        let (q, v) = y.split_at_mut(n);
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        if corrections[1].norm > most[1] && self.manifold.doubts(&at, v)? {
+        if corrections[1].norm > most && self.manifold.doubts(&at, v)? {
             again(y);
             let (q, v) = y.split_at_mut(n);
             self.position(t, q, v)?;

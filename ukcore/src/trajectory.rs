@@ -279,7 +279,7 @@ impl Trajectory {
         let mut q = vec![0.0; 2 * n];
         segment.state(t, &mut q);
         if self.projected {
-            let most = [&q[..n], &q[n..]].map(|x| self.error.at(largest(x)));
+            let most = self.error.at(largest(&q[n..]));
             let mut projector = Projector::new(&self.mechanism);
             projector.interpolated(t, &mut q, most, |q| segment.state(t, q))?;
         }

@@ -45,7 +45,7 @@ impl Factors {
     pub(super) fn new(mechanism: &Prepared) -> Self {
         let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         Factors {
-            dense: Dense::new(n, m, mechanism.spec().structure.mass_diagonal),
+            dense: Dense::new(mechanism.spec()),
             mass: vec![0.0; n * n],
             rhs: vec![0.0; m],
             best: vec![0.0; n],
@@ -144,21 +144,6 @@ impl Manifold {
         (self.factors.place, self.factors.cautious) = (None, true);
         self.factors.factor(at, x, &mut self.newton)?;
         Ok(self.factors.doubts())
-    }
-
-    /// Whether a row of A changes by more than half of itself between two places: a Newton step that long is none from nearby.
-    pub(super) fn overshoots(&mut self, at: &At<'_, f64>, [x, y]: [&[f64]; 2]) -> bool {
-        at.jacobian(x, &mut self.newton.jacobian);
-        let before = self.newton.jacobian.clone();
-        at.jacobian(y, &mut self.newton.jacobian);
-        let m = at.mech.spec().m();
-        (0..at.rows()).any(|c| {
-            let pairs = before.iter().zip(&self.newton.jacobian).skip(c).step_by(m);
-            let sums = pairs.fold([0.0; 3], |[a, b, change], (x, y)| {
-                [a + x * x, b + y * y, change + (y - x) * (y - x)]
-            });
-            4.0 * sums[2] > sums[0].min(sums[1])
-        })
     }
 
     /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.

@@ -307,7 +307,7 @@ impl States for Within<'_, '_> {
             work,
             ..
         } = self;
-        let most = [largest(q), largest(v)].map(|size| self.error.at(size));
+        let most = self.error.at(largest(v));
         let again = |y: &mut [f64]| {
             if let Some(interpolant) = &step.interpolant {
                 interpolant.state(t, y);
