@@ -305,6 +305,16 @@ fn motions_that_all_but_fold_turn_with_their_branch_at_loose_tolerances() {
     );
 }
 
+/// Steps that bring a chain from one side of a fold to the other, and turn combinations of rows by more than a right angle.
+#[test]
+fn motions_that_the_hunt_has_found_turn_with_their_branch() {
+    let mut outcomes = Outcomes::default();
+    for (chain, kind, e, w) in [(3, 1, 1e-4, 3.15), (4, 1, 1e-5, 6.65), (2, 4, 1e-6, 3.15)] {
+        outcomes.case(kind, CHAINS[chain], e, w, Method::Dop853, 1e-3);
+    }
+    assert!(outcomes.wrong.is_empty(), "{outcomes:#?}");
+}
+
 /// Where one of two chains crosses its branches and the other one turns just beside, this may not be told, but then it is said.
 #[test]
 fn a_chain_that_folds_beside_one_that_all_but_does_is_never_wrong() {

@@ -231,6 +231,11 @@ impl Independence {
         none
     }
 
+    /// The least part of a row, as a share of its length, that those eliminated before it do not have, for A at a state.
+    pub(super) fn left(&mut self, a: &[f64]) -> f64 {
+        self.share(a, a).unwrap_or(0.0).sqrt()
+    }
+
     /// The least share that a pivot of S, for A at two states, has of its diagonal; `None` if S is not positive definite.
     pub(super) fn share(&mut self, a: &[f64], b: &[f64]) -> Option<f64> {
         self.load(a, b);

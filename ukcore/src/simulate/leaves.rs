@@ -32,34 +32,48 @@ pub(super) struct Compared {
     pub(super) rows: f64,
     /// The same, of the entries of its own of a row that has some.
     pub(super) own: f64,
+    /// The largest difference of such changes from those before them, had they gone on as fast.
+    pub(super) rows_bend: f64,
+    pub(super) own_bend: f64,
     /// Whether these are not reversed.
     pub(super) kept: bool,
 }
 
-/// |x|², |y − x|² and x·y of vectors x and y, of which y is the last.
+/// |y|², |y − x|², x·y and |y − x − r (x − w)|² of vectors w, x and y, of which y is the last.
 #[derive(Default, Clone, Copy)]
 struct Sums {
     square: f64,
     change: f64,
     product: f64,
+    bend: f64,
 }
 
 impl Sums {
     #[inline]
-    fn add(mut self, places: &[u32], [x, y]: [&[f64]; 2]) -> Self {
+    fn add(mut self, places: &[u32], [w, x, y]: [&[f64]; 3], r: f64) -> Self {
         for place in places {
-            let (x, y) = (x[*place as usize], y[*place as usize]);
+            let place = *place as usize;
+            let (w, x, y) = (w[place], x[place], y[place]);
+            let change = y - x;
+            let bend = change - r * (x - w);
             self.square += y * y;
-            self.change += (y - x) * (y - x);
+            self.change += change * change;
             self.product += x * y;
+            self.bend += bend * bend;
         }
         self
     }
 
-    /// The change as a share of what the vector is at the last, squared, or `most` if that is more.
-    fn share(self, most: f64) -> f64 {
-        let share = self.change / self.square;
-        if share > most { share } else { most }
+    /// Makes `change` and `bend` at least those of the vector, as shares of what it is at the last, squared.
+    fn share(self, change: &mut f64, bend: &mut f64) {
+        let scale = self.square.recip();
+        let larger = |most: &mut f64, x: f64| {
+            if x > *most {
+                *most = x;
+            }
+        };
+        larger(change, self.change * scale);
+        larger(bend, self.bend * scale);
     }
 }
 
@@ -128,13 +142,15 @@ impl Leaves {
 
     /// Squares of the lengths of rows, for A at a state.
     pub(super) fn squares(&self, a: &[f64], squares: &mut Vec<f64>) {
-        self.compare([a, a], squares, &mut vec![0.0; self.rows.len()]);
+        self.compare([a; 3], 0.0, squares, &mut vec![0.0; self.rows.len()]);
     }
 
-    /// Squares of the lengths of rows at the last of two states, and their products, for A at both.
+    /// Squares of the lengths of rows at the last of three states, and their products with those before, for A at these. The time between
+    /// the last two is `ratio` times that between the first two.
     pub(super) fn compare(
         &self,
-        a: [&[f64]; 2],
+        a: [&[f64]; 3],
+        ratio: f64,
         squares: &mut Vec<f64>,
         products: &mut Vec<f64>,
     ) -> Compared {
@@ -148,16 +164,25 @@ impl Leaves {
         for Row { row, own, end } in &self.rows {
             let (mine, rest) = self.places[begin..*end].split_at(*own);
             begin = *end;
-            let own = Sums::default().add(mine, a);
-            let all = own.add(rest, a);
+            let own = Sums::default().add(mine, a, ratio);
+            let all = own.add(rest, a, ratio);
             (squares[*row], products[*row]) = (all.square, all.product);
-            compared.rows = all.share(compared.rows);
+            all.share(&mut compared.rows, &mut compared.rows_bend);
             if !mine.is_empty() {
-                compared.own = own.share(compared.own);
+                own.share(&mut compared.own, &mut compared.own_bend);
                 compared.kept &= own.product > 0.0;
             }
         }
-        (compared.rows, compared.own) = (compared.rows.sqrt(), compared.own.sqrt());
+        let Compared {
+            rows,
+            own,
+            rows_bend,
+            own_bend,
+            ..
+        } = &mut compared;
+        for x in [rows, own, rows_bend, own_bend] {
+            *x = x.sqrt();
+        }
         compared
     }
 }

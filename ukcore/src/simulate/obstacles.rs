@@ -152,7 +152,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     let way = (found.t - old.t).abs();
     (found.t != near.t).then(|| Singular {
         t: found.t,
-        gap: match found.least < UNTOLD {
+        gap: match if found.rest { *reached } else { found.least } < UNTOLD {
             true => f64::NAN,
             false => found.least * way,
         },

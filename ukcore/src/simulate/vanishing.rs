@@ -17,8 +17,8 @@ use crate::mechanism::Prepared;
 use crate::pinv::dot;
 use crate::zero::locate;
 
-/// Rows are looked at again before they have changed by this share of themselves, going on as they did, and after this many times the time
-/// since they were looked at last.
+/// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
+/// this many times the time since they were looked at last.
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
 
@@ -30,6 +30,9 @@ const STEEPER: f64 = 2.0;
 
 /// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
 const DIP: f64 = 0.25;
+
+/// A row that is no more than this share, √ε, of what it is a step later is zero as far as the state tells.
+const NOTHING: f64 = 1.5e-8;
 
 /// A row that is this share of what it has been is near to vanishing.
 const SMALL: f64 = 1.0 / 32.0;
@@ -81,6 +84,8 @@ pub(super) struct RowWatch {
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
+    /// A where it was looked at before that.
+    past: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
     /// What has become of rows between both.
@@ -96,6 +101,8 @@ pub(super) struct RowWatch {
     share: f64,
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
+    /// By what [`Compared`] calls a bend, what a change gains in as much time again.
+    gain: f64,
     /// When to look again.
     due: f64,
 }
@@ -179,6 +186,9 @@ impl RowWatch {
         if reversed && self.look_back(mech, old) {
             self.compare(mech);
         }
+        if let Some(found) = first.then(|| self.begins(mech, old, new)).flatten() {
+            return Some(Loss::Row(found));
+        }
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
@@ -212,23 +222,64 @@ impl RowWatch {
         between.take(mech, Sample::from(&state));
         between.measure(&self.leaves);
         let found = self.smallest(&between, Sample::from(&state))?;
+        let row = found.row;
+        let mut ends = [0.0; 2];
+        for (length, at) in ends.iter_mut().zip([old, new]) {
+            let mut end = Matrix::default();
+            end.take(mech, at);
+            end.measure(&self.leaves);
+            *length = end.length(row);
+        }
+        // It comes to rest beside the place, and the step is short enough to see that.
+        let most = ends[0].max(ends[1]);
+        if between.length(row) > CHANGE * most {
+            return None;
+        }
         Some(Vanishing {
             near: between_states(old, new, (part - BEFORE).max(0.0)),
             rest: true,
+            reached: most / found.size,
             ..found
         })
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
+    /// The row that is zero where the motion begins at rest, if one is: it may leave in any direction.
+    fn begins(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+        if old.v.iter().any(|v| *v != 0.0) {
+            return None;
+        }
+        let mut pairs = self.seen.squares.iter().zip(&self.here.squares);
+        let row = pairs.position(|(x, y)| *x < NOTHING * NOTHING * y)?;
+        let size = self.here.length(row);
+        let reached = self.seen.length(row) / size;
+        (row < mech.spec().holonomic).then(|| Vanishing {
+            row,
+            size,
+            near: between_states(old, new, BEFORE),
+            t: new.t,
+            least: reached,
+            reached,
+            rest: true,
+        })
+    }
+
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way, which
+    /// need not be on the constraints, has not only turned where the others leave it little.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
         let asked = self.asked.filter(|_| self.share == 0.0)?;
         let independence = self.independence[asked].as_mut()?.as_mut()?;
         let ends = [&self.seen.entries[..], &self.here.entries[..]];
+        let [first, last] = ends.map(|a| independence.left(a));
+        // Where a combination has least left, and how much.
+        let mut least = match first < last {
+            true => (first, [0.0, 0.5]),
+            false => (last, [0.5, 1.0]),
+        };
         let mut between = Matrix::default();
         let at = |part: f64| between_states(old, new, part);
         // Parts of the step that are left to look at, the first one last, with A at their ends.
-        let mut left = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
-        while let Some((from, to, [a, b])) = left.pop() {
+        let mut parts = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
+        while let Some((from, to, [a, b])) = parts.pop() {
             if independence.share(&a, &b).is_some() {
                 continue;
             }
@@ -239,10 +290,17 @@ impl RowWatch {
             let middle = 0.5 * (from + to);
             between.take(mech, Sample::from(&at(middle)));
             let c = between.entries.clone();
-            left.push((middle, to, [c.clone(), b]));
-            left.push((from, middle, [a, c]));
+            let left = independence.left(&c);
+            if left < least.0 {
+                least = (left, [from, middle]);
+            }
+            parts.push((middle, to, [c.clone(), b]));
+            parts.push((from, middle, [a, c]));
         }
-        None
+        (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
+            states: Box::new(least.1.map(at)),
+            whole: independence.is_whole(),
+        })
     }
 
     /// Takes A at the start of the step in hand, if it is not known there.
@@ -266,7 +324,19 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let [seen, here] = [&self.seen.entries[..], &self.here.entries];
         let (squares, products) = (&mut self.here.squares, &mut self.products);
-        self.compared = self.leaves.compare([seen, here], squares, products);
+        // Where nothing came before, as from rest: the change from there is all there is of it.
+        let ratio = (self.here.t - self.seen.t) / (self.seen.t - self.past.t);
+        let (past, ratio) = match ratio.is_finite() {
+            true => (&self.past.entries[..], ratio),
+            false => (seen, 0.0),
+        };
+        let compared = (self.leaves).compare([past, seen, here], ratio, squares, products);
+        self.compared = compared;
+        // In the middle of the time between the first two it was as fast as it went there on an average.
+        self.gain = 2.0 * ratio / (1.0 + ratio);
+        if ratio == 0.0 {
+            self.gain = 2.0;
+        }
         (self.share, self.asked) = (1.0, None);
         let kept = self.compared.kept;
         if !self.together || kept && self.leaves.are_all() {
@@ -307,21 +377,28 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let Compared { rows, own, kept } = self.compared;
-        let mut change = match self.together && kept && self.leaves.are_all() {
-            true => own,
-            false => rows,
+        let Compared {
+            rows,
+            own,
+            rows_bend,
+            own_bend,
+            kept,
+        } = self.compared;
+        let [mut change, mut bend] = match self.together && kept && self.leaves.are_all() {
+            true => [own, own_bend],
+            false => [rows, rows_bend],
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         if let Some(which) = self.asked
             && let Some(Some(beside)) = &mut self.independence[which]
         {
             let here = &self.here.entries;
-            let left = beside.share(here, here).unwrap_or(0.0).sqrt();
+            let left = beside.left(here);
             let before = self.left[which];
             change = STEEPER * (rows / left).max((before - left) / left);
+            bend = STEEPER * rows_bend / left;
             if kept {
-                change = change.max(own);
+                (change, bend) = (change.max(own), bend.max(own_bend));
             }
             self.left[which] = left;
         }
@@ -331,7 +408,12 @@ impl RowWatch {
                 *size = square.sqrt();
             }
         }
-        self.due = t + (t - self.seen.t) * (CHANGE / change).min(LONGEST);
+        // In x times the time between both it changes by (change + gain) x + gain x².
+        let gain = 0.5 * self.gain * bend;
+        let fast = change + gain;
+        let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
+        self.due = t + (t - self.seen.t) * times.min(LONGEST);
+        std::mem::swap(&mut self.past, &mut self.seen);
         std::mem::swap(&mut self.seen, &mut self.here);
     }
 
