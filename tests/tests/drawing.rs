@@ -1,7 +1,6 @@
 //! Pictures: what is declared, and what bodies and joints give by themselves.
 
-use models::Model;
-use tests::{Check, assert_all_close, every_model};
+use tests::assert_all_close;
 use ukcore::Mechanism;
 use ukcore::spec::ShapeKind::{Line, Mark, Spring, Support};
 
@@ -70,19 +69,6 @@ fn bodies_and_joints_have_a_picture() {
 }
 
 #[test]
-fn every_model_has_a_picture() {
-    struct Picture;
-    impl Check for Picture {
-        fn check<M: Model>(&self) {
-            let drawing = M::SPEC.drawing;
-            let model = M::default();
-            let start = model.default_start().expect("the default start exists");
-            let mut numbers = vec![f64::NAN; drawing.numbers()];
-            let prepared = model.prepared::<f64>();
-            prepared.drawing(start.t, &start.q, &start.v, &mut numbers);
-            assert!(!numbers.is_empty(), "{}", M::ID);
-            assert!(numbers.iter().all(|x| x.is_finite()), "{}", M::ID);
-        }
-    }
-    every_model(&Picture);
+fn every_model_is_whole() {
+    models::entries().iter().for_each(tests::assert_whole);
 }

@@ -107,6 +107,10 @@ fn summary(
         ready.entry.id, ready.start
     )?;
     let wide = width(first.iter().map(|e| e.name));
+    let [watt, joule] = match ready.mechanism.spec().coordinate_units.is_empty() {
+        true => ["", ""],
+        false => [" W", " J"],
+    };
     for (k, motor) in first.iter().enumerate() {
         let efforts = samples.iter().map(|(_, efforts)| efforts[k].effort);
         let (least, most) = efforts.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
@@ -130,7 +134,7 @@ fn summary(
             [least, most, power, at, work].map(|x| significant(x + 0.0, 7));
         writeln!(
             out,
-            "  {name:<wide$}  effort {least} to {most}, power at most {power} at t = {at} s, work {work}"
+            "  {name:<wide$}  effort {least} to {most}, power at most {power}{watt} at t = {at} s, work {work}{joule}"
         )?;
     }
     Ok(())

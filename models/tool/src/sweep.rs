@@ -387,6 +387,14 @@ impl Table {
     /// The table `path` with this line of names: a new one, or one that is there with all its whole rows.
     fn open(path: &Path, head: &[u8]) -> Result<Self, Failure> {
         let broken = |e: &io::Error| Failure::file(path, e);
+        output::directory(path).map_err(|e| broken(&e))?;
+        // What is taken up where it ends has an end, and keeps what is written.
+        if fs::metadata(path).is_ok_and(|known| !known.is_file()) {
+            return Err(Failure::Failed(format!(
+                "cannot write {}: it is no file that keeps a table; name another with `--out`",
+                path.display()
+            )));
+        }
         let mut options = File::options();
         let file = options.read(true).append(true).create(true).open(path);
         let mut file = file.map_err(|e| broken(&e))?;

@@ -291,3 +291,15 @@ fn shares_are_joined_to_the_same_table() {
         );
     }
 }
+
+/// A table is taken up where it ends: a device has no end, and keeps nothing.
+#[cfg(unix)]
+#[test]
+fn a_table_is_a_file() {
+    for place in ["/dev/full", "/dev/null", "."] {
+        let told = format!("cannot write {place}: it is no file that keeps a table");
+        fails(&format!("sweep cart --until 0.1 --out {place}"), 1, &told);
+    }
+    let told = "cannot write /nonexistent/a.csv: there is no directory /nonexistent";
+    fails("sweep cart --until 0.1 --out /nonexistent/a.csv", 1, told);
+}
