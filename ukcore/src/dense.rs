@@ -14,6 +14,7 @@ use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::scan::largest;
+use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
 /// N and of the product are a few n ε.
@@ -76,6 +77,9 @@ pub(crate) enum Route {
 #[derive(Debug, Clone)]
 pub(crate) struct Dense {
     n: usize,
+    /// Rows that make M regular, those of quaternions apart: [`Solve::regular`](crate::spec::Solve::regular) and
+    /// [`Solve::turned`](crate::spec::Solve::turned).
+    regular: [&'static [usize]; 2],
     pub(crate) metric: Metric,
     pub(crate) cod: Decomposition,
     /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
@@ -108,11 +112,13 @@ impl Dense {
         scales.map(|&s| if s > 0.0 { s } else { 1.0 }).collect()
     }
 
-    /// Buffers for n coordinates and up to m constraints.
-    pub(crate) fn new(n: usize, m: usize, diagonal: bool) -> Self {
+    /// Buffers for the mechanisms of a type.
+    pub(crate) fn new(spec: &Spec) -> Self {
+        let (n, m) = (spec.n(), spec.m());
         Dense {
             n,
-            metric: Metric::new(n, diagonal),
+            regular: [spec.structure.solve.regular, spec.structure.solve.turned],
+            metric: Metric::new(n, spec.structure.mass_diagonal),
             cod: Decomposition::new(m, n),
             row_scale: vec![0.0; m],
             sizes: vec![0.0; m],
@@ -145,7 +151,13 @@ impl Dense {
     ) -> Result<(), MassFault> {
         match route {
             Route::Regular => self.metric.factor(mass)?,
-            Route::Singular => self.metric.scale(mass, a.jacobian, a.stride, a.rows)?,
+            Route::Singular => (self.metric).scale(
+                mass,
+                a.jacobian,
+                a.stride,
+                a.rows,
+                self.regular.iter().copied().flatten().copied(),
+            )?,
         }
         let columns = self.cod.load(a.rows);
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {

@@ -134,14 +134,17 @@ impl Metric {
     }
 
     /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets the scale at which its entries of A do not
-    /// exceed those of the massive coordinates in any row that has both, so that it neither hides them nor is hidden. The accelerations do
-    /// not depend on these scales, only their rounding and the rank decisions do.
+    /// exceed those of the massive coordinates in any row that has both, so that it neither hides them nor is hidden. Rows a that are
+    /// `regular` give coordinates the mass of M + μ aᵀa, which does not vanish where their own does: what is next to nothing there, as
+    /// beside the identity orientation, would have rounding of other rows for large entries. The accelerations do not depend on these
+    /// scales, only their rounding and the rank decisions do.
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
         jacobian: &[f64],
         stride: usize,
         rows: usize,
+        regular: impl Iterator<Item = usize>,
     ) -> Result<(), MassFault> {
         let n = self.n;
         self.kind = Kind::Scales;
@@ -152,8 +155,18 @@ impl Metric {
             }
             self.root[i] = own.sqrt();
         }
+        for c in regular.filter(|c| *c < rows) {
+            let row = || jacobian.iter().skip(c).step_by(stride);
+            let length = row().fold(0.0_f64, |sum, a| sum.hypot(*a));
+            let acts = row().zip(&self.root).filter(|(a, _)| **a != 0.0);
+            let root = acts.fold(0.0_f64, |sum, (_, root)| sum.hypot(*root));
+            if length > 0.0 {
+                let pairs = self.root.iter_mut().zip(row());
+                pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
+            }
+        }
         for j in 0..n {
-            if mass[j * n + j] > 0.0 {
+            if self.root[j] > 0.0 {
                 continue;
             }
             let mut root = 0.0_f64;
@@ -332,7 +345,7 @@ mod tests {
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
         let no_rows: [f64; 0] = [];
         assert_eq!(
-            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0),
+            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0, std::iter::empty()),
             Err(MassFault::Indefinite(0))
         );
     }

@@ -133,7 +133,7 @@ impl Solver {
             force: vec![0.0; n],
             position: vec![0.0; spec.holonomic],
             rate: vec![0.0; m],
-            dense: Dense::new(n, m, spec.structure.mass_diagonal),
+            dense: Dense::new(spec),
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),

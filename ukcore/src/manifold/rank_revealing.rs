@@ -45,7 +45,7 @@ impl Factors {
     pub(super) fn new(mechanism: &Prepared) -> Self {
         let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         Factors {
-            dense: Dense::new(n, m, mechanism.spec().structure.mass_diagonal),
+            dense: Dense::new(mechanism.spec()),
             mass: vec![0.0; n * n],
             rhs: vec![0.0; m],
             best: vec![0.0; n],

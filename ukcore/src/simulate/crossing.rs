@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
         Search {
             mech,
             noise: Noise::new(mech),
-            dense: Dense::new(n, m, spec.structure.mass_diagonal),
+            dense: Dense::new(spec),
             terms: Evaluated::new(n, m),
             rank: m,
             reach: 0.0,
