@@ -311,7 +311,10 @@ mod tests {
             html.contains("<th class=\"group\" colspan=\"1\">both</th>"),
             "{html}"
         );
-        assert!(html.contains("<th class=\"text\">name</th><th>there</th></tr>"), "{html}");
+        assert!(
+            html.contains("<th class=\"text\">name</th><th>there</th></tr>"),
+            "{html}"
+        );
         assert!(html.contains("<td>a</td><td class=\"n\">1</td>"), "{html}");
         assert!(html.contains("<td colspan=\"1\"><i>no</i></td>"), "{html}");
     }
