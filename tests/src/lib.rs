@@ -58,6 +58,27 @@ pub fn every_type(check: &impl Check) {
     }
 }
 
+/// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.
+///
+/// # Panics
+/// Unless that is so.
+pub fn assert_whole(entry: &Entry) {
+    let (id, mechanism) = (&entry.id, &entry.mechanism);
+    let spec = mechanism.spec();
+    assert!(!entry.summary.is_empty(), "{id}: no summary");
+    assert!(!entry.starts.is_empty(), "{id}: no start");
+    assert_eq!(spec.coordinate_units.len(), spec.n(), "{id}: no units");
+    assert!(!spec.drawing.shapes.is_empty(), "{id}: no picture");
+    for start in entry.starts {
+        let state = entry.start(mechanism, start.name, &StartOptions::new());
+        let state = state.unwrap_or_else(|e| panic!("{id}, {}: {e}", start.name));
+        let mut numbers = vec![f64::NAN; spec.drawing.numbers()];
+        mechanism.drawing(state.t, &state.q, &state.v, &mut numbers);
+        assert!(numbers.iter().all(|x| x.is_finite()), "{id}: {numbers:?}");
+        assert!(!start.doc.is_empty(), "{id}, {}: no words", start.name);
+    }
+}
+
 /// Panics unless `found` is `expected` up to `tolerance` (absolute).
 ///
 /// # Panics

@@ -147,3 +147,19 @@ fn inertia_of_no_rigid_body_is_refused_by_name() {
         "`mass` of `first` is 0; it must be positive",
     );
 }
+
+/// The name of a body holds all its coordinates; a value, which is of one kind, is for alike coordinates alone.
+#[test]
+fn the_name_of_a_body_means_its_coordinates() {
+    let spec = Pushed::SPEC;
+    assert_eq!(spec.coordinates_of("b"), Ok(vec![3, 4, 5]));
+    assert_eq!(spec.coordinates_of("b.angle"), Ok(vec![5]));
+    assert!(spec.coordinates_of("c").is_err());
+    assert!(spec.coordinate_indices("b").is_err());
+    assert!(State::guess::<Pushed>(&[("b", 1.0)]).is_err());
+    let mut guess = State::zeros::<Pushed>();
+    guess.q = vec![1.0, 2.0, 0.3, 4.0, 5.0, 0.6];
+    let held =
+        assemble(Pushed::default(), guess.clone(), &["a", "b"]).expect("nothing is in the way");
+    assert_eq!(held.q, guess.q);
+}

@@ -1,6 +1,6 @@
 //! Pictures: what is declared, and what bodies and joints give by themselves.
 
-use tests::{assert_all_close, every_model, start};
+use tests::assert_all_close;
 use ukcore::Mechanism;
 use ukcore::spec::ShapeKind::{Line, Mark, Spring, Support};
 
@@ -69,15 +69,6 @@ fn bodies_and_joints_have_a_picture() {
 }
 
 #[test]
-fn every_model_has_a_picture() {
-    every_model(|model| {
-        let mechanism = &model.mechanism;
-        let spec = mechanism.spec();
-        let drawing = spec.drawing;
-        let start = start(model);
-        let mut numbers = vec![f64::NAN; drawing.numbers()];
-        mechanism.drawing(start.t, &start.q, &start.v, &mut numbers);
-        assert!(!numbers.is_empty(), "{}", model.id);
-        assert!(numbers.iter().all(|x| x.is_finite()), "{}", model.id);
-    });
+fn every_model_is_whole() {
+    models::entries().iter().for_each(tests::assert_whole);
 }

@@ -124,7 +124,7 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 }
 
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
-/// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
+/// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members, a body's all its coordinates.
 ///
 /// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
 /// looked for: a far guess has two dozen searches begin around it, which may miss one. Where coordinates stay free the state is the one that
@@ -151,7 +151,7 @@ pub fn assemble(
 pub(crate) fn held(spec: &Spec, names: &[&str]) -> Result<Vec<usize>, Error> {
     let mut held = Vec::new();
     for name in names {
-        held.extend(spec.coordinate_indices(name)?);
+        held.extend(spec.coordinates_of(name)?);
     }
     held.sort_unstable();
     held.dedup();

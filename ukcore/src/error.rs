@@ -183,7 +183,8 @@ pub enum Error {
     },
 }
 
-/// So many names are listed in full. Of more names that exist the nearest one alone is offered, of more names concerned the first ones.
+/// So many names are listed in full. Of more names that exist the nearest one alone is offered, if there is one; else, and of more names
+/// concerned, the first ones.
 const MOST_LISTED: usize = 8;
 
 impl Error {
@@ -271,8 +272,7 @@ fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
         (Some(nearest), _) => format!("; did you mean `{nearest}`?"),
         (None, 0) => "; there is none".to_owned(),
         (None, 1) => format!("; there is {}", quoted(known)),
-        (None, 2..=MOST_LISTED) => format!("; there are {}", quoted(known)),
-        (None, _) => String::new(),
+        (None, _) => format!("; there are {}", quoted(known)),
     }
 }
 
@@ -343,7 +343,11 @@ mod tests {
             message("floor", &many),
             format!("{none}; did you mean `flour`?")
         );
-        assert_eq!(message("roof", &many), "no event is called `roof`");
+        let first = ["`flour`"; MOST_LISTED - 1].join(", ");
+        assert_eq!(
+            message("roof", &many),
+            format!("no event is called `roof`; there are {first}, … (9 in all)")
+        );
     }
 
     #[test]

@@ -26,13 +26,15 @@ pub fn short(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// From here on, and below its reciprocal, a number is written as a power of ten.
+/// From here on a number is written as a power of ten.
 const HUGE: f64 = 1e15;
+/// Below it a number is, as its digits stand behind zeros that have to be counted.
+const TINY: f64 = 1e-5;
 
 /// All digits of a number, but none that only fill it up: `0.25`, `2e200`.
 #[must_use]
 pub fn full(value: f64) -> String {
-    if value == 0.0 || (1.0 / HUGE..HUGE).contains(&value.abs()) {
+    if value == 0.0 || (TINY..HUGE).contains(&value.abs()) {
         return value.to_string();
     }
     format!("{value:e}")
@@ -68,7 +70,7 @@ mod tests {
         assert_eq!(short(12.0, 6), "12");
         assert_eq!(short(-5.0, 6), "-5");
         assert_eq!(short(0.0, 6), "0");
-        assert_eq!(short(1.23e-9, 6), "0.00000000123");
+        assert_eq!(short(1.23e-9, 6), "1.23e-9");
         assert_eq!(short(100.0, 0), "100");
         assert_eq!(short(2e200, 6), "2e200");
         assert_eq!(short(-1.5e-200, 6), "-1.5e-200");

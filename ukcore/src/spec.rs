@@ -319,14 +319,31 @@ impl Spec {
             .map_or_else(|| Ok(vec![self.parameter_index(name)?]), Ok)
     }
 
-    /// Indices of the coordinates that `name` means: that coordinate, or all members of a family with this bare name, `p`, or of its row,
-    /// `p[1]`.
+    /// Indices of the coordinates that one value for `name` is for: that coordinate, or all members of a family with this bare name, `p`, or
+    /// of its row, `p[1]`.
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn coordinate_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
         members(name, self.coords.iter().copied())
             .map_or_else(|| Ok(vec![self.coordinate_index(name)?]), Ok)
+    }
+
+    /// Indices of all coordinates that [belong](belongs) to `name`: those of [`coordinate_indices`](Spec::coordinate_indices), or all of a
+    /// body, `jib`, of a family of bodies, or of a part.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinates_of(&self, name: &str) -> Result<Vec<usize>, Error> {
+        let coords = self.coords.iter().enumerate();
+        let found: Vec<usize> = coords
+            .filter(|(_, c)| belongs(c, name))
+            .map(|(j, _)| j)
+            .collect();
+        match found.is_empty() {
+            true => Ok(vec![self.coordinate_index(name)?]),
+            false => Ok(found),
+        }
     }
 
     /// Index of the coordinate called `name`.
@@ -350,12 +367,10 @@ impl Spec {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn constraint_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
-        let belongs = |full: &str| {
-            let rest = full.strip_prefix(name);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
         let rows = self.constraints.iter().enumerate();
-        let rows = rows.filter(|(_, c)| belongs(c.name)).map(|(row, _)| row);
+        let rows = rows
+            .filter(|(_, c)| belongs(c.name, name))
+            .map(|(row, _)| row);
         let rows: Vec<usize> = rows.collect();
         match rows.is_empty() {
             true => Ok(vec![self.constraint_index(name)?]),
@@ -372,11 +387,19 @@ impl Spec {
     }
 }
 
-/// Positions of those of `names` that are `name` with indices behind it, if there are any.
+/// Whether what is called `full` is, or belongs to, what is called `name`: `p[1][2]` to the row `p[1]` and the family `p`, `jib.angle` to the
+/// body `jib`, `load[0].x` to `load[0]` and to all of `load`, `pin.x` to the joint `pin`.
+#[must_use]
+pub fn belongs(full: &str, name: &str) -> bool {
+    let rest = full.strip_prefix(name);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// Positions of those of `names` that are `name` with indices alone behind it, if there are any.
 fn members<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<Vec<usize>> {
     let member = |n: &str| {
         n.strip_prefix(name)
-            .is_some_and(|rest| rest.starts_with('['))
+            .is_some_and(|rest| rest.starts_with('[') && !rest.contains('.'))
     };
     let members = names.enumerate().filter(|(_, n)| member(n));
     let members: Vec<usize> = members.map(|(i, _)| i).collect();

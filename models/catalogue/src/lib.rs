@@ -26,3 +26,22 @@ pub use heavy_top::HeavyTop;
 pub use jansen::{JansenLeg, Walker};
 pub use rolling_disc::RollingDisc;
 pub use stewart::Stewart;
+
+use ukcore::{entry, model::Entry};
+
+/// All mechanisms of the catalogue, as tools handle them.
+#[must_use]
+pub fn entries() -> Vec<Entry> {
+    vec![
+        entry!(Andrews),
+        entry!(Bicycle),
+        entry!(JansenLeg),
+        entry!(Walker),
+        entry!(Bricard),
+        entry!(Governor),
+        entry!(Stewart),
+        entry!(HeavyTop),
+        entry!(RollingDisc),
+        entry!(Arm),
+    ]
+}

@@ -2,19 +2,6 @@
 
 #![forbid(unsafe_code)]
 
-use catalogue::{
-    Andrews, Arm, Bicycle, Bricard, Governor, HeavyTop, JansenLeg, RollingDisc, Stewart, Walker,
-};
-
-uktool::main!(
-    Andrews,
-    Bicycle,
-    JansenLeg,
-    Walker,
-    Bricard,
-    Governor,
-    Stewart,
-    HeavyTop,
-    RollingDisc,
-    Arm,
-);
+fn main() -> std::process::ExitCode {
+    uktool::command::main(&catalogue::entries())
+}

@@ -12,8 +12,42 @@ mod pose;
 mod rolling_disc;
 mod stewart;
 
+use std::process::Command;
+
 use ukcore::model::StartOptions;
 use ukcore::{Mechanism, Simulation, State, Trajectory};
+
+#[test]
+fn every_mechanism_is_whole() {
+    catalogue::entries().iter().for_each(tests::assert_whole);
+}
+
+/// The page that plays a motion has numbers alone: one that is none would be `null` there.
+#[test]
+fn every_mechanism_has_an_animation() {
+    let out = tempfile::tempdir().expect("a directory");
+    for entry in catalogue::entries() {
+        let page = out.path().join(&entry.id);
+        let mut animate = Command::new(env!("CARGO_BIN_EXE_catalogue"));
+        animate.args(["animate", &entry.id, "--until", "0.01", "--pictures", "3"]);
+        let done = animate.arg("--out").arg(&page).output().expect("it starts");
+        let told = String::from_utf8_lossy(&done.stderr);
+        assert!(
+            done.status.success() && told.is_empty(),
+            "{}: {told}",
+            entry.id
+        );
+        let page = std::fs::read_to_string(&page).expect("a page");
+        let (_, data) = page.split_once("id=\"data\">").expect("its data");
+        let (data, _) = data.split_once("</script>").expect("an end");
+        let data = data.replace("\"ended\":null", "");
+        assert!(
+            data.contains("\"pictures\":[[") && !data.contains("null"),
+            "{}: {data}",
+            entry.id
+        );
+    }
+}
 
 /// The first start that is declared.
 fn start<M: Mechanism>(mechanism: &M) -> State {

@@ -31,11 +31,20 @@ pub struct AnimateArgs {
     #[command(flatten)]
     pub runs: Runs,
     /// Number of pictures, from 2 to 100000
-    #[arg(long, value_name = "NUMBER", default_value = "600", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    #[arg(long, value_name = "NUMBER", default_value = "600", value_parser = pictures, allow_hyphen_values = true)]
     pub pictures: u32,
     /// The page; MODEL.html if absent
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub out: Option<PathBuf>,
+}
+
+/// Reads a number of pictures.
+fn pictures(text: &str) -> Result<u32, String> {
+    let number = text.trim().parse::<f64>().ok();
+    let number = number.filter(|n| n.fract() == 0.0 && (2.0..=MOST_PICTURES as f64).contains(n));
+    number
+        .map(|n| n as u32)
+        .ok_or_else(|| format!("a whole number of pictures is needed, from 2 to {MOST_PICTURES}"))
 }
 
 /// More runs side by side are not told apart.
@@ -235,7 +244,7 @@ pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let (start, method) = (ready.start, motion.method);
     let tolerance = motion.tolerance();
     let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
-    let from = format!("From `{start}`, by {method}{tolerance}.");
+    let from = format!("from `{start}`, by {method}{tolerance}.");
     match parameters.is_empty() {
         true => from,
         false => format!("{from} Parameters: {}.", parameters.join(", ")),
@@ -280,7 +289,7 @@ pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<Strin
             label { input #traces type="checkbox" checked; " traces" }
         }
         div #strips {}
-        p.soft { @if several { "The first: " } (message(about)) }
+        p.soft { @if several { "The first: " } @else { "A run " } (message(about)) }
         script type="application/json" id="data" { (PreEscaped(data)) }
         script { (PreEscaped(PLAYER)) }
     };

@@ -1,6 +1,7 @@
 //! The quantities of a motion by the names that they have in tables: `t`, `x`, `dot(x)`, outputs, integrals, `energy`, `residual`.
 
 use ukcore::simulate::{Drift, Sample};
+use ukcore::spec::belongs;
 use ukcore::{Error, Prepared};
 
 use crate::failure::Failure;
@@ -25,7 +26,7 @@ enum Source {
 }
 
 impl Columns {
-    /// Those called `names`, as in the first line of `run --csv`; the bare name of a family means all its members.
+    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body means all that [belongs] to it.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a name that is none, with the nearest.
@@ -34,19 +35,12 @@ impl Columns {
         let mut chosen = Vec::new();
         for name in names {
             let name = name.as_ref().trim();
-            let exact = all.iter().filter(|(known, _)| known == name);
-            let mut found: Vec<_> = exact.cloned().collect();
-            if found.is_empty() {
-                let members = all
-                    .iter()
-                    .filter(|(known, _)| family(known).is_some_and(|f| f == name));
-                found.extend(members.cloned());
-            }
-            if found.is_empty() {
+            let before = chosen.len();
+            chosen.extend(all.iter().filter(|(known, _)| means(name, known)).cloned());
+            if chosen.len() == before {
                 let mut known = all.iter().map(|(known, _)| known.as_str());
                 return Err(Error::unknown_name("quantity", name, &mut known).into());
             }
-            chosen.extend(found);
         }
         Ok(Columns {
             mechanism: mechanism.clone(),
@@ -157,11 +151,14 @@ fn all(mechanism: &Prepared) -> Vec<(String, Source)> {
     all
 }
 
-/// `x` of `x[1][2]`, and `dot(x)` of `dot(x[1])`.
-fn family(name: &str) -> Option<String> {
-    let (family, _) = name.split_once('[')?;
-    let end = if family.starts_with("dot(") { ")" } else { "" };
-    Some(format!("{family}{end}"))
+/// Whether the column `known` is called `name` or belongs to it: `x[1][2]` to `x`, `dot(x[1])` to `dot(x)`.
+fn means(name: &str, known: &str) -> bool {
+    let rate = |text: &str| Some(text.strip_prefix("dot(")?.strip_suffix(')')?.to_owned());
+    match (rate(name), rate(known)) {
+        (Some(name), Some(known)) => belongs(&known, &name),
+        (None, None) => belongs(known, name),
+        _ => false,
+    }
 }
 /// A name, with a unit behind where there is one.
 pub(crate) fn labelled((name, unit): (impl Into<String>, String)) -> String {

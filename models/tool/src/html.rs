@@ -109,6 +109,12 @@ pub fn table(
         let mut cells = rows.iter().filter_map(|row| row.get(column));
         rows.is_empty() || cells.any(|cell| !matches!(cell, Cell::Missing))
     };
+    // A column of text is aligned as such, with its head and where it has nothing.
+    let text = |column: usize| {
+        let cells = || rows.iter().filter_map(|row| row.get(column));
+        cells().all(|cell| !matches!(cell, Cell::Number(_)))
+            && cells().any(|cell| !matches!(cell, Cell::Missing))
+    };
     let mut columns = 0..;
     let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
     for head in heads.split('|') {
@@ -123,17 +129,20 @@ pub fn table(
     let grouped = groups
         .iter()
         .any(|(group, members)| !group.is_empty() && !members.is_empty());
+    // (Heads first: of columns there is no end.)
+    let heads = groups.iter().flat_map(|(_, members)| members);
+    let heads = heads.zip((0..).filter(|column| known(*column)));
     html! {
         figure.table {
             figcaption { (caption) }
             div.scroll { table {
                 thead {
                     @if grouped { tr { @for (group, members) in &groups { (group_head(group, members.len())) } } }
-                    tr { @for member in groups.iter().flat_map(|(_, members)| members) { th { (PreEscaped(member)) } } }
+                    tr { @for (member, column) in heads { th class=[text(column).then_some("text")] { (PreEscaped(member)) } } }
                 }
                 tbody { @for row in &rows { tr {
                     @for (column, cell) in row.iter().enumerate().filter(|(column, _)| known(*column)) {
-                        (data(cell, shown - (0..column).filter(|c| known(*c)).count()))
+                        (data(cell, shown - (0..column).filter(|c| known(*c)).count(), text(column)))
                     }
                 } } }
             } }
@@ -149,14 +158,14 @@ fn group_head(group: &str, columns: usize) -> Markup {
     }
 }
 
-/// A cell with so many columns from it to the end.
-fn data(cell: &Cell, left: usize) -> Markup {
+/// A cell with so many columns from it to the end, in a column of text or not.
+fn data(cell: &Cell, left: usize, text: bool) -> Markup {
     match cell {
         Cell::Text(content) => html! { td { (content) } },
         Cell::Number(content) => html! { td.n { (content) } },
         Cell::Class(class, content) => html! { td class=(class) { (content) } },
         Cell::Rest(content) => html! { td colspan=(left) { (content) } },
-        Cell::Missing => html! { td.n { "–" } },
+        Cell::Missing => html! { td class=[(!text).then_some("n")] { "–" } },
     }
 }
 
@@ -302,7 +311,10 @@ mod tests {
             html.contains("<th class=\"group\" colspan=\"1\">both</th>"),
             "{html}"
         );
-        assert!(html.contains("<th>name</th><th>there</th></tr>"), "{html}");
+        assert!(
+            html.contains("<th class=\"text\">name</th><th>there</th></tr>"),
+            "{html}"
+        );
         assert!(html.contains("<td>a</td><td class=\"n\">1</td>"), "{html}");
         assert!(html.contains("<td colspan=\"1\"><i>no</i></td>"), "{html}");
     }

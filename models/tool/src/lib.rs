@@ -50,6 +50,8 @@ pub mod modes;
 pub mod motion;
 pub mod numbers;
 pub mod output;
+#[cfg(feature = "parquet")]
+mod parquet;
 pub mod plot;
 pub mod progress;
 pub mod report;

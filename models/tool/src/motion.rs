@@ -33,7 +33,7 @@ pub struct Motion {
     #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
     pub method: Method,
     /// Steps to give up after, such as 1e9
-    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps)]
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,
     /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
     /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`

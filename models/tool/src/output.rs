@@ -165,14 +165,20 @@ fn discard(which: impl Fn(&Path) -> bool) {
     }
 }
 
-/// A hidden file in the directory of `target`, so that renaming stays within one file system.
-fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+/// The directory that `target` is to be in.
+pub(crate) fn directory(target: &Path) -> io::Result<&Path> {
     let directory = target.parent().filter(|d| !d.as_os_str().is_empty());
     let directory = directory.unwrap_or(Path::new("."));
     if !directory.is_dir() {
         let message = format!("there is no directory {}", directory.display());
         return Err(io::Error::new(io::ErrorKind::NotFound, message));
     }
+    Ok(directory)
+}
+
+/// A hidden file in the directory of `target`, so that renaming stays within one file system.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let directory = directory(target)?;
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let prefix = format!(".{name}.");
     let mut builder = tempfile::Builder::new();

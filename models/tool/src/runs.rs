@@ -32,7 +32,7 @@ pub struct Runs {
     #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = List::<Method>::read)]
     pub method: List<Method>,
     /// Steps to give up after, such as 1e9
-    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps)]
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps, allow_hyphen_values = true)]
     pub max_steps: usize,
     /// How the constraints are kept from drifting, or several ways: `projection,none`
     #[arg(long, visible_alias = "stabilize", value_name = "WAYS", default_value = "projection", value_parser = List::<Stabilisation>::read)]

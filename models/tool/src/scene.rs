@@ -222,10 +222,10 @@ fn setting(
     }
 }
 
-/// The unit of a parameter, or of a family named without index.
+/// The unit of a parameter, or of a family or row named without index.
 fn unit_of(spec: &Spec, name: &str) -> Option<&'static str> {
-    let named = |p: &&ukcore::spec::ParamSpec| p.name == name || family(p.name) == name;
-    spec.params.iter().find(named).map(|p| p.unit)
+    let indices = spec.parameter_indices(name).ok()?;
+    indices.first().map(|p| spec.params[*p].unit)
 }
 
 fn family(name: &str) -> &str {

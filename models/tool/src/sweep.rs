@@ -45,7 +45,8 @@ pub struct SweepArgs {
     /// are a table of the sweep, which the same command without a share puts in order and completes
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<Shard>,
-    /// The table, as CSV. One that an interrupted sweep has left is completed
+    /// The table, as CSV, or as Parquet where its name ends in `.parquet` and this program is built with that feature: from rows that are
+    /// collected in FILE.csv. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub out: PathBuf,
 }
@@ -95,7 +96,8 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         every: args.every,
     };
     let head = plan.head()?;
-    let mut table = Table::open(&args.out, &head)?;
+    let rows = rows(&args.out)?;
+    let mut table = Table::open(&rows, &head)?;
     let own = |member: &usize| args.shard.is_none_or(|shard| shard.has(*member));
     let mut todo = table.missing(&plan)?;
     todo.retain(own);
@@ -108,8 +110,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         let row = plan.row(member, interrupt)?;
         if let Some(row) = row.filter(|_| !interrupt.is_set()) {
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
-            file.write_all(&row)
-                .map_err(|e| Failure::file(&args.out, &e))?;
+            file.write_all(&row).map_err(|e| Failure::file(&rows, &e))?;
             let done = had + 1 + done.fetch_add(1, Ordering::Relaxed);
             progress.set(done as f64 / all as f64, || format!("{done} of {all} runs"));
         }
@@ -127,7 +128,11 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         return Err(Failure::Interrupted(message));
     }
     drop(table);
-    let failed = in_order(&args.out)?;
+    let failed = in_order(&rows)?;
+    #[cfg(feature = "parquet")]
+    if rows != args.out {
+        crate::parquet::write(&rows, &args.out)?;
+    }
     let Some((member, error)) = failed.first() else {
         let told = format!("{} in {}", count(all, "run"), args.out.display());
         return output::to_stdout(|out| writeln!(out, "{told}"));
@@ -151,6 +156,20 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         count(all, "run"),
         args.out.display(),
     )))
+}
+
+/// The file that rows are appended to: the table itself or, as nothing is appended to a Parquet file, one beside it.
+fn rows(out: &Path) -> Result<PathBuf, Failure> {
+    let parquet = out.extension().is_some_and(|ending| ending == "parquet");
+    if parquet && !cfg!(feature = "parquet") {
+        return Err(Failure::Usage(format!(
+            "{} would be Parquet, which this program is built without: name a `.csv`, or build it with the feature `parquet` of `uktool`",
+            out.display()
+        )));
+    }
+    let mut rows = out.to_owned().into_os_string();
+    rows.push(if parquet { ".csv" } else { "" });
+    Ok(rows.into())
 }
 
 /// Runs that failed are called by their numbers, so many of them.
@@ -387,6 +406,14 @@ impl Table {
     /// The table `path` with this line of names: a new one, or one that is there with all its whole rows.
     fn open(path: &Path, head: &[u8]) -> Result<Self, Failure> {
         let broken = |e: &io::Error| Failure::file(path, e);
+        output::directory(path).map_err(|e| broken(&e))?;
+        // What is taken up where it ends has an end, and keeps what is written.
+        if fs::metadata(path).is_ok_and(|known| !known.is_file()) {
+            return Err(Failure::Failed(format!(
+                "cannot write {}: it is no file that keeps a table; name another with `--out`",
+                path.display()
+            )));
+        }
         let mut options = File::options();
         let file = options.read(true).append(true).create(true).open(path);
         let mut file = file.map_err(|e| broken(&e))?;

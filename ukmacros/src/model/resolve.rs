@@ -232,7 +232,14 @@ fn members<T>(
                 false => found.extend(every(&shape).map(member)),
             }
         });
-        found.into_iter().for_each(|f| add(f, kind, model, diag));
+        // Of a family whose name is refused no other member is told of.
+        let mut refused = Vec::new();
+        for member in found {
+            let name = member.name.to_string();
+            if !refused.contains(&name) && !add(member, kind, model, diag) {
+                refused.push(name);
+            }
+        }
     }
     let (families, elements) = model.lists(kind);
     for family in families {
@@ -300,7 +307,8 @@ impl Family {
     }
 }
 
-fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
+/// Enters a member, and its family with the first; whether that is so.
+fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) -> bool {
     let text = found.name.to_string();
     let known = match (model.names.get(&text), kind) {
         (Some(Name::Param(f)), Kind::Param)
@@ -322,21 +330,21 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
                 found.loc,
                 format!("members of `{text}` must be declared in order from `{first}`, each once"),
             );
-            return;
+            return false;
         }
         let meaning = match kind {
             Kind::Param => Name::Param(family),
             Kind::Coord => Name::Coord(family),
             Kind::Body => Name::Body(family),
         };
+        if !declare(&found.name, meaning, model, diag) {
+            return false;
+        }
+        // It is declared all the same: what uses it is right.
         if kind == Kind::Coord
             && let Err(reason) = model.column(&found.name)
         {
             diag.error(found.name.span(), reason);
-            return;
-        }
-        if !declare(&found.name, meaning, model, diag) {
-            return;
         }
     }
     let (families, elements) = model.lists(kind);
@@ -359,6 +367,7 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
         default: found.default,
         unit: found.unit,
     });
+    true
 }
 
 /// Enters the bodies and the joints of the tree with their coordinates. There were `before` errors before bodies were read.

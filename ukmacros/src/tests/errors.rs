@@ -457,6 +457,9 @@ cases! {
     output_named_energy: "coords { x } mass { x: 1.0 } output { «energy» = x }" => "`energy` is a column of every run";
     coordinate_named_energy_in_units: "coords { «energy» [m], y [m] } mass { energy: 1.0 [kg], y: 1.0 } force { energy: y }" => "`energy` is a column of every run";
     too_many_coordinates_in_units: "const N: usize = «100000»; coords { x[N] [m] } mass { for i in 0..N { x[i]: 1.0 [kg] } } start a { x[0] = 1.0 [m] }" => "families and loops by `N` = 100000 have more than 5000 members";
+    family_of_coordinates_named_energy: "coords { «energy»[3], y } mass { for i in 0..3 { energy[i]: 1.0 } y: 1.0 } force { y: energy[2] }" => "`energy` is a column of every run";
+    family_named_as_a_parameter: "params { x = 1.0 } coords { «x»[3], y } mass { y: x }" => "`x` is declared twice";
+    family_named_as_what_is_reserved: "coords { «t»[3], y } mass { y: 1.0 }" => "`t` is reserved";
     coordinate_named_residual: "coords { «residual» } mass { residual: 1.0 }" => "`residual` is a column of every run";
     vector_output_as_a_family: "coords { x[2] } mass { x[0]: 1.0, x[1]: 1.0 } output { «x» = [1.0 * t, t] }" => "`x[0]` is a coordinate and in the output anyway";
     // Arguments.

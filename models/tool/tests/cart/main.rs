@@ -79,6 +79,21 @@ fn a_mechanism_is_listed_with_its_starts() {
 }
 
 #[test]
+fn wrong_names_and_numbers_are_told_with_what_is_right() {
+    fails(
+        "run cart --until 0.1 --plot a.svg zzzzzzzz",
+        2,
+        "no quantity is called `zzzzzzzz`; there are `t`, `s`, `x`, `y`, `dot(s)`, `dot(x)`, `dot(y)`, … (10 in all)",
+    );
+    let pictures = "a whole number of pictures is needed, from 2 to 100000";
+    for number in ["1", "1e9", "2.5", "-3", "many"] {
+        fails(&format!("animate cart --pictures {number}"), 2, pictures);
+    }
+    let steps = "a whole number of steps is needed, at least 1";
+    fails("run cart --max-steps -3", 2, steps);
+}
+
+#[test]
 fn its_start_is_assembled_and_its_motion_printed() {
     let csv = output(&format!("run cart {GUESS} --until 2 --every 0.5 --csv -"));
     let mut lines = csv.lines();

@@ -50,7 +50,7 @@ fn its_motion_is_shown() {
         assert_eq!(points, 41, "{shown}");
         assert!(shown.contains("t = 2.000 s"), "{shown}");
     }
-    fails("animate cart --pictures 1", 2, "1 is not in 2..=100000");
+    fails("animate cart --pictures 1", 2, "from 2 to 100000");
 }
 
 /// What a page is given.

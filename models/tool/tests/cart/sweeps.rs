@@ -291,3 +291,44 @@ fn shares_are_joined_to_the_same_table() {
         );
     }
 }
+
+/// A table is taken up where it ends: a device has no end, and keeps nothing.
+#[cfg(unix)]
+#[test]
+fn a_table_is_a_file() {
+    for place in ["/dev/full", "/dev/null", "."] {
+        let told = format!("cannot write {place}: it is no file that keeps a table");
+        fails(&format!("sweep cart --until 0.1 --out {place}"), 1, &told);
+    }
+    let told = "cannot write /nonexistent/a.csv: there is no directory /nonexistent";
+    fails("sweep cart --until 0.1 --out /nonexistent/a.csv", 1, told);
+}
+
+/// Shares of a sweep in files of their own, and the whole of it.
+#[test]
+fn a_table_may_be_parquet() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("a.parquet");
+    let sweep = format!(
+        "sweep cart --until 0.1 --set k=1,2,3 --out {}",
+        place.display()
+    );
+    if !cfg!(feature = "parquet") {
+        fails(&sweep, 2, "build it with the feature `parquet` of `uktool`");
+        assert!(!out.path().join("a.parquet.csv").exists());
+        return;
+    }
+    let size = |more: &str| {
+        output(&format!("{sweep} {more}"));
+        let bytes = std::fs::read(&place).expect("a table");
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+        bytes.len()
+    };
+    let share = size("--shard 1/3");
+    assert!(
+        share < size(""),
+        "the whole has more rows than {share} bytes"
+    );
+    let rows = std::fs::read_to_string(out.path().join("a.parquet.csv")).expect("rows");
+    assert_eq!(rows.lines().count(), 1 + 3, "{rows}");
+}

@@ -366,6 +366,33 @@ fn every_model_is_explained() {
     }
 }
 
+/// The page that plays a motion has numbers alone: one that is none would be `null` there.
+#[test]
+fn every_model_has_an_animation() {
+    let out = Scratch::new("animations");
+    for id in models::ids() {
+        let page = out.path(id);
+        output(&[
+            "animate",
+            id,
+            "--until",
+            "0.01",
+            "--pictures",
+            "3",
+            "--out",
+            &page,
+        ]);
+        let page = fs::read_to_string(&page).expect("a page");
+        let (_, data) = page.split_once("id=\"data\">").expect("its data");
+        let (data, _) = data.split_once("</script>").expect("an end");
+        let data = data.replace("\"ended\":null", "");
+        assert!(
+            data.contains("\"pictures\":[[") && !data.contains("null"),
+            "{id}: {data}"
+        );
+    }
+}
+
 #[test]
 fn help_documents_the_exit_codes() {
     let help = output(&["--help"]);
