@@ -103,8 +103,8 @@ fn the_nearest_of_all_ways_is_taken() {
         let Some(way) = drawn.get(draw % drawn.len().max(1)) else {
             continue;
         };
-        for (x, there) in guess.q.iter_mut().zip(way).skip(3) {
-            *x = there + spread * random.signed();
+        for (guess, way) in guess.q.iter_mut().zip(way).skip(3) {
+            *guess = way + spread * random.signed();
         }
         let far = |q: &[f64]| -> f64 {
             let terms = (0..n).map(|j| mass[j * n + j] * (q[j] - guess.q[j]).powi(2));
