@@ -63,7 +63,7 @@ ukcore::multibody! {
 
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
-fn at_rest<M: Mechanism>(q: &[f64]) -> State {
+fn at_rest(q: &[f64]) -> State {
     State {
         t: 0.0,
         q: q.to_vec(),
@@ -109,19 +109,15 @@ fn is_named<M: Mechanism>(mechanism: &M, start: &State, name: &str) {
 fn rest_in_a_crossing_pushed_along_no_branch_is_named() {
     let up = std::f64::consts::FRAC_PI_2;
     for (slider, pin) in [(1.0, 0.0), (-3.0, 0.9), (0.2, 0.3)] {
-        is_named(
-            &Points { slider, pin },
-            &at_rest::<Points>(&[0.0, 1.0, 0.0]),
-            "rod",
-        );
+        is_named(&Points { slider, pin }, &at_rest(&[0.0, 1.0, 0.0]), "rod");
     }
-    let folded = at_rest::<Bodies>(&[0.0, 0.5, up, 0.0, 0.5, -up]);
+    let folded = at_rest(&[0.0, 0.5, up, 0.0, 0.5, -up]);
     for (push, turn) in [(1.0, 0.0), (0.0, 1.0), (-2.0, 0.3)] {
         is_named(&Bodies { push, turn }, &folded, "");
     }
     for (along, across) in [(1.0, 1.0), (-0.5, 2.0)] {
-        is_named(&Axes { along, across }, &at_rest::<Axes>(&[0.0; 2]), "axes");
-        is_named(&Saddle { along, across }, &at_rest::<Saddle>(&[0.0; 3]), "");
+        is_named(&Axes { along, across }, &at_rest(&[0.0; 2]), "axes");
+        is_named(&Saddle { along, across }, &at_rest(&[0.0; 3]), "");
     }
 }
 
@@ -130,7 +126,7 @@ fn rest_in_a_crossing_pushed_along_no_branch_is_named() {
 fn a_velocity_along_no_branch_is_named() {
     let start = State {
         v: vec![1.0, 0.0, 1.0],
-        ..at_rest::<Points>(&[0.0, 1.0, 0.0])
+        ..at_rest(&[0.0, 1.0, 0.0])
     };
     is_named(&Points::default(), &start, "rod");
 }
@@ -138,7 +134,7 @@ fn a_velocity_along_no_branch_is_named() {
 #[test]
 fn rest_in_a_crossing_pushed_along_a_branch_goes_on() {
     for (along, across) in [(0.0, 0.0), (1.0, 0.0), (0.0, -2.0)] {
-        let run = Simulation::new(Axes { along, across }).start(at_rest::<Axes>(&[0.0; 2]));
+        let run = Simulation::new(Axes { along, across }).start(at_rest(&[0.0; 2]));
         let run = run.until(0.5).expect("it goes on");
         let end = run.last().expect("an end");
         assert_close("along", end.q[0], 0.125 * along, 1e-9);
@@ -149,7 +145,7 @@ fn rest_in_a_crossing_pushed_along_a_branch_goes_on() {
 /// What is no crossing keeps its reason.
 #[test]
 fn contradictions_stay_contradictions() {
-    let failure = Simulation::new(Torn::default()).start(at_rest::<Torn>(&[0.0; 2]));
+    let failure = Simulation::new(Torn::default()).start(at_rest(&[0.0; 2]));
     let failure = failure.until(0.5).expect_err("rows contradict each other");
     let (_, told) = source(&failure.error);
     assert!(
