@@ -261,8 +261,8 @@ impl RowWatch {
         })
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way, which
-    /// need not be on the constraints, has not only turned where the others leave it little.
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way,
+    /// which need not be on the constraints, has not only turned where the others leave it little.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
         let asked = self.asked.filter(|_| self.share == 0.0)?;
         let independence = self.independence[asked].as_mut()?.as_mut()?;
