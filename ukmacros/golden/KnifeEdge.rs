@@ -229,6 +229,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: false,
+                jacobian_fixed: &[],
                 massless: &[],
                 angles: &[2],
                 scleronomic: true,

@@ -207,6 +207,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: true,
+                jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[0],
                 angles: &[],
                 scleronomic: true,

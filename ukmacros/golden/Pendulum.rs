@@ -205,6 +205,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: false,
+                jacobian_fixed: &[],
                 massless: &[],
                 angles: &[],
                 scleronomic: true,

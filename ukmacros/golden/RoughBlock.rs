@@ -246,6 +246,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: true,
+                jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[],
                 angles: &[],
                 scleronomic: true,

@@ -2,8 +2,8 @@
 //!
 //! Such a row says nothing there of the motion, and its direction is reversed behind the place: along a smooth motion it goes through zero.
 //! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
-//! from it by their length on the way. Rows are looked at before any of them can have changed by half of itself; that is at each step only
-//! where steps are long.
+//! from it by their length on the way. A row with an entry that stays as it is never vanishes, however small that is beside others, in
+//! whatever units. Rows are looked at before any of them can have changed by half of itself; that is at each step only where steps are long.
 //!
 //! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
 //! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
@@ -77,6 +77,8 @@ pub(super) struct RowWatch {
     /// The greatest length of each so far.
     sizes: Vec<f64>,
     leaves: Leaves,
+    /// Rows that may vanish: those without an entry that stays as it is.
+    may: Vec<bool>,
     /// A where the run began.
     first: Vec<f64>,
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
@@ -307,6 +309,11 @@ impl RowWatch {
         if self.leaves.is_empty() {
             self.leaves = Leaves::new(mech, &self.seen.entries);
             self.first.clone_from(&self.seen.entries);
+            let m = mech.spec().m();
+            self.may = vec![true; m];
+            for (c, i) in mech.spec().structure.jacobian_fixed {
+                self.may[*c] &= self.first[i * m + c] == 0.0;
+            }
         }
         if unknown {
             self.seen.measure(&self.leaves);
@@ -350,9 +357,9 @@ impl RowWatch {
 
     /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
     fn smallest(&self, matrix: &Matrix, here: Sample<'_>) -> Option<Vanishing> {
-        let pairs = matrix.squares.iter().zip(&self.sizes);
-        let small = |(x, size): (&f64, &f64)| *x < (SMALL * size).powi(2);
-        let row = pairs.clone().position(small)?;
+        let rows = matrix.squares.iter().zip(&self.sizes).zip(&self.may);
+        let mut small = rows.map(|((x, size), may)| *may && *x < (SMALL * size).powi(2));
+        let row = small.position(|small| small)?;
         let least = matrix.length(row) / self.sizes[row];
         Some(Vanishing {
             row,
@@ -410,9 +417,9 @@ impl RowWatch {
         std::mem::swap(&mut self.seen, &mut self.here);
     }
 
-    /// The rows that have turned by more than a right angle.
+    /// The rows that have turned by more than a right angle, and may vanish.
     fn reversed(&self) -> impl Iterator<Item = usize> {
-        (0..self.products.len()).filter(|c| self.products[*c] < 0.0)
+        (0..self.products.len()).filter(|c| self.products[*c] < 0.0 && self.may[*c])
     }
 
     /// Where row `c`, reversed on the way from `old` to `new`, goes through zero, if it does not only turn.

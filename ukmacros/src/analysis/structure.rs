@@ -9,6 +9,8 @@ pub(crate) struct Structure {
     pub(crate) mass_diagonal: bool,
     pub(crate) mass_constant: bool,
     pub(crate) jacobian_constant: bool,
+    /// Entries of A that depend on parameters alone.
+    pub(crate) jacobian_fixed: Vec<(usize, usize)>,
     pub(crate) massless: Vec<usize>,
     /// Coordinates in the argument of a sine, cosine or tangent of the equations.
     pub(crate) angles: Vec<usize>,
@@ -36,7 +38,9 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let massive: BTreeSet<usize> = dynamics.mass.keys().flat_map(|(r, c)| [*r, *c]).collect();
     let mass_diagonal = dynamics.mass.keys().all(|(r, c)| r == c);
     let mass_constant = dynamics.mass.values().all(|m| g.uses(*m).constant());
-    let jacobian_constant = dynamics.jacobian.values().all(|a| g.uses(*a).constant());
+    let fixed = (dynamics.jacobian.iter()).filter(|(_, a)| g.uses(**a).constant());
+    let jacobian_fixed: Vec<(usize, usize)> = fixed.map(|(place, _)| *place).collect();
+    let jacobian_constant = jacobian_fixed.len() == dynamics.jacobian.len();
     let massless: Vec<usize> = (0..n).filter(|i| !massive.contains(i)).collect();
     let forces = dynamics.force.iter().chain(&dynamics.nonideal);
     let constraints = dynamics.rate.iter().chain(&dynamics.phi);
@@ -53,6 +57,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         mass_diagonal,
         mass_constant,
         jacobian_constant,
+        jacobian_fixed,
         massless,
         angles: angles(dynamics, g),
         scleronomic,

@@ -133,6 +133,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         mass_diagonal,
         mass_constant,
         jacobian_constant,
+        jacobian_fixed,
         massless,
         angles,
         scleronomic,
@@ -143,6 +144,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         conservative,
         left_out,
     } = &analysis.structure;
+    let fixed = jacobian_fixed.iter().map(|(i, j)| pair(*i, *j));
     let massless = massless.iter().map(|i| number(*i));
     let angles = angles.iter().map(|i| number(*i));
     let forced = forced.iter().map(|i| number(*i));
@@ -161,6 +163,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             mass_diagonal: #mass_diagonal,
             mass_constant: #mass_constant,
             jacobian_constant: #jacobian_constant,
+            jacobian_fixed: &[#(#fixed),*],
             massless: &[#(#massless),*],
             angles: &[#(#angles),*],
             scleronomic: #scleronomic,
