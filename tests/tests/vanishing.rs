@@ -54,8 +54,8 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// Crank and rod of length 1 whose slider stays on a line, in their angles; a force pulls it along. With b = −a the slider is at 2 cos a; at
-    /// the bearing the row vanishes, and rod and crank may turn as one.
+    /// Crank and rod of length 1 whose slider stays on a line, in their angles; a force pulls it along. With b = −a the slider is at
+    /// 2 cos a; at the bearing the row vanishes, and rod and crank may turn as one.
     Rods {
         params { mass = 1.0, force = 1.0 }
         coords { a, b }

@@ -248,11 +248,12 @@ impl RowWatch {
         if old.v.iter().any(|v| *v != 0.0) {
             return None;
         }
-        let mut pairs = self.seen.squares.iter().zip(&self.here.squares);
-        let row = pairs.position(|(x, y)| *x < NOTHING * NOTHING * y)?;
+        let [seen, here] = [&self.seen.squares, &self.here.squares];
+        let zero = |c: &usize| self.may[*c] && seen[*c] < NOTHING * NOTHING * here[*c];
+        let row = (0..mech.spec().holonomic).find(zero)?;
         let size = self.here.length(row);
         let reached = self.seen.length(row) / size;
-        (row < mech.spec().holonomic).then(|| Vanishing {
+        Some(Vanishing {
             row,
             size,
             near: between_states(old, new, BEFORE),
@@ -263,8 +264,8 @@ impl RowWatch {
         })
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way, which
-    /// need not be on the constraints, has not only turned where the others leave it little.
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way,
+    /// which need not be on the constraints, has not only turned where the others leave it little.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
         let asked = self.asked.filter(|_| self.share == 0.0)?;
         let independence = self.independence[asked].as_mut()?.as_mut()?;
