@@ -31,9 +31,6 @@ const STEEPER: f64 = 2.0;
 /// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
 const DIP: f64 = 0.25;
 
-/// A row that is no more than this share, √ε, of what it is a step later is zero as far as the state tells.
-const NOTHING: f64 = 1.5e-8;
-
 /// A row that is this share of what it has been is near to vanishing.
 const SMALL: f64 = 1.0 / 32.0;
 
@@ -186,9 +183,6 @@ impl RowWatch {
         if reversed && self.look_back(mech, old) {
             self.compare(mech);
         }
-        if let Some(found) = first.then(|| self.begins(mech, old, new)).flatten() {
-            return Some(Loss::Row(found));
-        }
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
@@ -240,27 +234,6 @@ impl RowWatch {
             rest: true,
             reached: most / found.size,
             ..found
-        })
-    }
-
-    /// The row that is zero where the motion begins at rest, if one is: it may leave in any direction.
-    fn begins(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
-        if old.v.iter().any(|v| *v != 0.0) {
-            return None;
-        }
-        let [seen, here] = [&self.seen.squares, &self.here.squares];
-        let zero = |c: &usize| self.may[*c] && seen[*c] < NOTHING * NOTHING * here[*c];
-        let row = (0..mech.spec().holonomic).find(zero)?;
-        let size = self.here.length(row);
-        let reached = self.seen.length(row) / size;
-        Some(Vanishing {
-            row,
-            size,
-            near: between_states(old, new, BEFORE),
-            t: new.t,
-            least: reached,
-            reached,
-            rest: true,
         })
     }
 
