@@ -15,7 +15,7 @@ pub struct Effort {
     /// The row of the constraint, or the coordinate.
     pub name: &'static str,
     /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place, on the second body, in
-    /// [`Spec::multiplier_unit`](crate::Spec::multiplier_unit). Of a coordinate the generalised force on it.
+    /// [`Spec::multiplier_unit`](crate::spec::Spec::multiplier_unit). Of a coordinate the generalised force on it.
     pub effort: f64,
     /// The power that it puts into the mechanism: the effort times the rate at which it moves.
     pub power: f64,
