@@ -53,9 +53,12 @@ pub fn every_type(check: &impl Check) {
             self.0.check::<M>();
         }
     }
+    let mut visited = 0;
     for id in models::ids() {
         models::visit(id, Run(check)).expect("ids() names registered models");
+        visited += 1;
     }
+    assert!(visited > 0, "the registry has no model");
 }
 
 /// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.

@@ -421,8 +421,8 @@ ukcore::multibody! {
     }
 }
 
-/// In millimetres, or for a bridge, a mechanism moves as in metres, at the same cost: the lever of a pin that goes through zero leaves a row
-/// that is small beside what it was, and says what it did.
+/// In millimetres, or for a bridge, a mechanism moves as in metres, at the same cost: the lever of a pin that goes through zero leaves a
+/// row that is small beside what it was, and says what it did.
 #[test]
 fn lengths_in_any_unit_are_as_good() {
     let run = |l: f64| {

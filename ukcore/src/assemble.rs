@@ -8,7 +8,7 @@
 //! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
 //! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
 //! mechanism together; the nearest in that metric is taken, over all that depends on the choice. Where interval arithmetic shows that none
-//! is nearer than the first one found, as near a good sketch, the search ends there; else two dozen more begin all around the guess.
+//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess.
 
 use crate::diagnose;
 use crate::error::Error;
@@ -127,7 +127,7 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members, a body's all its coordinates.
 ///
 /// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
-/// looked for: a far guess has two dozen searches begin around it, which may miss one. Where coordinates stay free the state is the one that
+/// looked for: a far guess has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one that
 /// the search from the guess leads to. `branches` tells of others that are as near.
 ///
 /// # Errors

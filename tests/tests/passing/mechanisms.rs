@@ -113,8 +113,8 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// A plate on three parallel cranks of one length, with their bearings on a line: one row follows from the others anywhere, two where the
-    /// cranks lie in the line.
+    /// A plate on three parallel cranks of one length, with their bearings on a line: one row follows from the others anywhere, two where
+    /// the cranks lie in the line.
     pub(super) Plate {
         params { r = 0.8, g = 0.0, s[3] = [-1.0, 0.3, 1.1] }
         coords { x, y, a }

@@ -163,8 +163,8 @@ impl<'a> ByParts<'a> {
         Some(Found { x, distance })
     }
 
-    /// Other solutions of the parts `group`, which need each other, than `nearest`, less than `bound` from the guess, where all before is as
-    /// in `x`: they branch off it in one part, and from there on are the nearest there.
+    /// Other solutions of the parts `group`, which need each other, than `nearest`, less than `bound` from the guess, where all before is
+    /// as in `x`: they branch off it in one part, and from there on are the nearest there.
     pub(super) fn others(
         &mut self,
         group: &[usize],
@@ -276,7 +276,8 @@ impl<'a> ByParts<'a> {
             .holds(self.at, part, (x, self.guess), (reach, &ease))
     }
 
-    /// The solution of `part` that a search from the guess leads to, or for other beginnings than the first from somewhere ever farther off.
+    /// The solution of `part` that a search from the guess leads to, or, for other beginnings than the first, from somewhere ever farther
+    /// off.
     fn begin(
         &mut self,
         part: &Part,

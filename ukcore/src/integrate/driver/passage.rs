@@ -240,8 +240,8 @@ impl Driver<'_> {
         }
     }
 
-    /// Goes back to the start of the last step where a position shows up so near ahead that a step over it would be short beside those of the
-    /// motion, with stages too near to it.
+    /// Goes back to the start of the last step where a position shows up so near ahead that a step over it would be short beside those of
+    /// the motion, with stages too near to it.
     pub(super) fn retreat(&mut self) -> Result<(), Error> {
         let (Some([from, to]), Some(position)) = (self.gap, &self.passage.ahead) else {
             return Ok(());
