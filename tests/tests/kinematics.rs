@@ -1,5 +1,7 @@
 //! Swept drives against closed forms: positions, velocities, accelerations, limits.
 
+mod refusals;
+
 use std::f64::consts::{PI, TAU};
 
 use crate::linkage::FourBar;
@@ -85,6 +87,12 @@ fn swept(
         intervals,
     )
     .unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[track_caller]
+fn refused(found: Result<Kinematics, Error>, message: &str) {
+    let error = found.expect_err("it is refused").to_string();
+    assert!(error.contains(message), "{error}");
 }
 
 /// Through both dead centres of the ram, also where r = l and branches cross at half way between: there the ram of this branch goes on to
@@ -476,101 +484,6 @@ fn several_freedoms_are_held_or_driven_together() {
         let turn = -4.5 * (3.0 * t).sin() * vt * vt + 2.0 * (vx * vx + x * ax);
         assert_close("ddot(w)", posture.acceleration[4], turn, 1e-9);
     }
-}
-
-#[track_caller]
-fn refused(found: Result<Kinematics, Error>, message: &str) {
-    let error = found.expect_err("it is refused").to_string();
-    assert!(error.contains(message), "{error}");
-}
-
-#[test]
-fn what_does_not_decide_a_motion_is_refused() {
-    let press = Press::default();
-    let at = |angle: f64| press.start("turned", &[("angle", angle)].into()).unwrap();
-    let mech = press.prepared();
-    let ask = |start: &State, drives: &[(&str, std::ops::Range<f64>)], hold: &[&str]| {
-        kinematics(&mech, start, drives, hold, 10)
-    };
-    refused(
-        ask(&at(1.0), &[("crank.x", 0.0..1.0)], &[]),
-        "`drives` do not move: `shaft.x` holds `crank.x` wherever the mechanism goes; drive `",
-    );
-    refused(
-        ask(&at(0.0), &[("ram.x", 0.3..0.4)], &[]),
-        "`start` is a dead centre: `ram.x` would stand still",
-    );
-    refused(
-        ask(&at(1.0), &[("ram.x", 0.3..0.4)], &["crank.angle"]),
-        "more than the degrees of freedom",
-    );
-    refused(
-        ask(&at(1.0), &[("ram.x", 0.3..0.4)], &["ram.x"]),
-        "`hold` has `ram.x`, which is a drive",
-    );
-    refused(
-        ask(&at(1.0), &[("ram.x", 0.3..0.3)], &[]),
-        "`ram.x` goes from 0.3 to 0.3",
-    );
-    refused(
-        ask(&at(1.0), &[("stroke", 0.3..0.4)], &[]),
-        "`drives` have `stroke`, an output: declare a coordinate for it",
-    );
-    refused(
-        ask(&at(1.0), &[("ran.x", 0.3..0.4)], &[]),
-        "did you mean `ram.x`",
-    );
-    refused(ask(&at(1.0), &[], &[]), "`drives` are none");
-    refused(
-        ask(&at(1.0), &[("ram.x", 0.3..f64::NAN)], &[]),
-        "not a finite number: range of ram.x",
-    );
-    let arm = Arm::default().prepared();
-    let start = ukcore::assemble(
-        &arm,
-        State {
-            t: 0.0,
-            q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
-            v: vec![0.0; 5],
-        },
-        &["a", "b"],
-    )
-    .unwrap();
-    refused(
-        kinematics(&arm, &start, &[("x", 0.0..4.0)], &[], 10),
-        "leave 1 degree of freedom beside the sweep",
-    );
-    let led = kinematics(&arm, &start, &[("x", 4.0..5.0)], &["b"], 10).unwrap();
-    assert_eq!((led.postures.len(), led.limits.len()), (0, 1));
-    let far = kinematics(&arm, &start, &[("x", 4.0..5.0), ("a", 0.0..1.0)], &[], 10);
-    refused(
-        far,
-        "do not come from the start to the begin of the sweep: `x` cannot pass",
-    );
-    ukcore::multibody! {
-        /// A follower on a cam with corners at the multiples of π.
-        pub Cam {
-            coords { a, x }
-            mass { a: 1.0, x: 1.0 }
-            holonomic { cam: x = abs(sin(a)) }
-        }
-    }
-    let start = State::guess::<Cam>(&[("a", 1.0), ("x", 0.8)]).unwrap();
-    let corner = kinematics(Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
-    refused(
-        corner,
-        "`drives` do not go on smoothly from here: positions have a corner",
-    );
-    let rods = Rods::default();
-    let flat = State {
-        t: 0.0,
-        q: vec![0.0, 0.0, 0.0, 1.0, 0.0],
-        v: vec![0.0; 5],
-    };
-    refused(
-        kinematics(&rods, &flat, &[("a", 0.0..1.0)], &[], 10),
-        "is a singular position",
-    );
 }
 
 /// A crank that cannot turn all the way, turned by a motor: the limit is a time.
