@@ -1,19 +1,9 @@
 //! Projection of every model from states off its constraints, by the emitted elimination where there is one.
 
 use nalgebra::{DMatrix, DVector};
-use tests::{every_model, largest, pseudo_inverse, start};
+use tests::{Random, every_model, largest, pseudo_inverse, start};
 use ukcore::manifold::Projector;
 use ukcore::{Prepared, State, assemble};
-
-/// Numbers between -1 and 1.
-fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-    move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
-    }
-}
 
 #[test]
 fn to_rounding_and_to_the_nearest_place() {
@@ -24,14 +14,14 @@ fn to_rounding_and_to_the_nearest_place() {
         let n = spec.n();
         let size = largest(&start.q).max(1.0);
         let mut projector = Projector::new(mechanism);
-        let mut next = numbers(5);
+        let mut random = Random::new(5);
         let mut jacobian = vec![0.0; spec.m() * n];
         for off in [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3] {
             for _ in 0..10 {
                 let place = format!("{} off by {off:e}", model.id);
                 let (mut q, mut v) = (start.q.clone(), start.v.clone());
-                q.iter_mut().for_each(|q| *q += off * next());
-                v.iter_mut().for_each(|v| *v += off * next());
+                q.iter_mut().for_each(|q| *q += off * random.signed());
+                v.iter_mut().for_each(|v| *v += off * random.signed());
                 let before = q.clone();
                 let rough = v.clone();
                 let position = projector.position(start.t, &mut q, &v);
