@@ -3,7 +3,7 @@
 ukcore::multibody! {
     /// The four-bar linkage of the README, of bodies with coordinates of their own, with its reactions.
     pub FourBar {
-        params { l[3] = [0.5, 2.0, 1.5], m[3] = 1.0, span = 2.0, k = 3.0, g = 9.81 }
+        params { l[3] = [0.5, 2.0, 1.5], m[3] = 1.0, span = 2.0, k = 3.0, fold = 1.0, g = 9.81 }
         bodies { for i in 0..3 { planar bar[i] { mass: m[i], inertia: m[i] * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
         gravity { [0, -g] }
         holonomic {
@@ -12,7 +12,7 @@ ukcore::multibody! {
             q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
             r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
         }
-        forces { turning_spring(bar[1], bar[2], k, 1.0) }
+        forces { turning_spring(bar[1], bar[2], k, fold) }
         output {
             tip = bar[1].at([1.0, 0.3]), push = dot(bar[1].at([1.0, 0.3])),
             o = reaction(o), p = reaction(p), q = reaction(q), r = reaction(r)

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::linkage::FourBar;
 use tests::{assert_all_close, assert_close};
 use ukcore::{Error, Mechanism, Stability, State, equilibrium};
 
@@ -242,40 +243,21 @@ fn what_has_no_freedom_rests_where_it_is() {
     );
 }
 
-ukcore::multibody! {
-    /// Crank, coupler and rocker under their weight; the crank turns all the way, so that the linkage has two branches that never meet.
-    pub Linkage {
-        params { l[3] = [0.5, 2.0, 1.5], span = 2.0, g = 9.81, k = 0.0 }
-        bodies { for i in 0..3 { planar bar[i] { mass: 1.0, inertia: sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
-        gravity { [0, -g] }
-        holonomic {
-            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
-            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
-            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
-            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
-        }
-        forces { turning_spring(bar[1], bar[2], k, -2.0) }
-        start open(crank = 1.0, coupler = 0.3, rocker = 1.4) {
-            bar[0].angle = crank;
-            bar[1].angle near coupler;
-            bar[2].angle near rocker
-        }
-    }
-}
-
-/// The angle between coupler and rocker keeps its sign in a branch; the rest position has that of the start, also where a spring would
+/// The crank turns all the way, so that the linkage has two branches that never meet. The angle between coupler and rocker keeps its sign
+/// in each; the rest position has that of the start, also where a spring would
 /// rather have the other one.
 #[test]
 fn a_mechanism_rests_in_the_branch_in_which_it_starts() {
     let fold = |state: &State| {
-        let [_, coupler, rocker] = Linkage::BAR_ANGLE.map(|j| state.q[j]);
+        let [_, coupler, rocker] = FourBar::BAR_ANGLE.map(|j| state.q[j]);
         (rocker - coupler).sin()
     };
     let mut signs = [0; 2];
     for k in [0.0, 30.0, 300.0] {
-        let linkage = Linkage {
+        let linkage = FourBar {
             k,
-            ..Linkage::default()
+            fold: -2.0,
+            ..FourBar::default()
         };
         for crank in 0..24 {
             for side in [1.0, -1.0] {
