@@ -32,9 +32,9 @@ pub(super) struct Compared {
     pub(super) rows: f64,
     /// The same, of the entries of its own of a row that has some.
     pub(super) own: f64,
-    /// The largest difference of such changes from those before them, had they gone on as fast.
-    pub(super) rows_bend: f64,
-    pub(super) own_bend: f64,
+    /// Half of what such changes gain in as much time again, going on to gain as they did since those before them.
+    pub(super) rows_gain: f64,
+    pub(super) own_gain: f64,
     /// Whether these are not reversed.
     pub(super) kept: bool,
 }
@@ -167,22 +167,26 @@ impl Leaves {
             let own = Sums::default().add(mine, a, ratio);
             let all = own.add(rest, a, ratio);
             (squares[*row], products[*row]) = (all.square, all.product);
-            all.share(&mut compared.rows, &mut compared.rows_bend);
+            all.share(&mut compared.rows, &mut compared.rows_gain);
             if !mine.is_empty() {
-                own.share(&mut compared.own, &mut compared.own_bend);
+                own.share(&mut compared.own, &mut compared.own_gain);
                 compared.kept &= own.product > 0.0;
             }
         }
         let Compared {
             rows,
             own,
-            rows_bend,
-            own_bend,
+            rows_gain,
+            own_gain,
             ..
         } = &mut compared;
-        for x in [rows, own, rows_bend, own_bend] {
-            *x = x.sqrt();
-        }
+        // In the middle of the time between the first two it was as fast as it went there on an average; at rest, where nothing came before.
+        let half = match ratio {
+            0.0 => 1.0,
+            ratio => ratio / (1.0 + ratio),
+        };
+        (*rows, *own) = (rows.sqrt(), own.sqrt());
+        (*rows_gain, *own_gain) = (half * rows_gain.sqrt(), half * own_gain.sqrt());
         compared
     }
 }

@@ -98,8 +98,6 @@ pub(super) struct RowWatch {
     share: f64,
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
-    /// By what [`Compared`] calls a bend, what a change gains in as much time again.
-    gain: f64,
     /// When to look again.
     due: f64,
 }
@@ -304,13 +302,7 @@ impl RowWatch {
             true => (&self.past.entries[..], ratio),
             false => (seen, 0.0),
         };
-        let compared = (self.leaves).compare([past, seen, here], ratio, squares, products);
-        self.compared = compared;
-        // In the middle of the time between the first two it was as fast as it went there on an average.
-        self.gain = 2.0 * ratio / (1.0 + ratio);
-        if ratio == 0.0 {
-            self.gain = 2.0;
-        }
+        self.compared = (self.leaves).compare([past, seen, here], ratio, squares, products);
         (self.share, self.asked) = (1.0, None);
         let kept = self.compared.kept;
         if !self.together || kept && self.leaves.are_all() {
@@ -354,13 +346,13 @@ impl RowWatch {
         let Compared {
             rows,
             own,
-            rows_bend,
-            own_bend,
+            rows_gain,
+            own_gain,
             kept,
         } = self.compared;
-        let [mut change, mut bend] = match self.together && kept && self.leaves.are_all() {
-            true => [own, own_bend],
-            false => [rows, rows_bend],
+        let [mut change, mut gain] = match self.together && kept && self.leaves.are_all() {
+            true => [own, own_gain],
+            false => [rows, rows_gain],
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         if let Some(which) = self.asked
@@ -370,9 +362,9 @@ impl RowWatch {
             let left = beside.left(here);
             let before = self.left[which];
             change = STEEPER * (rows / left).max((before - left) / left);
-            bend = STEEPER * rows_bend / left;
+            gain = STEEPER * rows_gain / left;
             if kept {
-                (change, bend) = (change.max(own), bend.max(own_bend));
+                (change, gain) = (change.max(own), gain.max(own_gain));
             }
             self.left[which] = left;
         }
@@ -383,7 +375,6 @@ impl RowWatch {
             }
         }
         // In x times the time between both it changes by (change + gain) x + gain x².
-        let gain = 0.5 * self.gain * bend;
         let fast = change + gain;
         let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
         self.due = t + (t - self.seen.t) * times.min(LONGEST);
