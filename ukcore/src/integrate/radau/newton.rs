@@ -534,18 +534,18 @@ impl Newton {
         let (q, v) = y.split_at(n);
         let by_stages = self.stages.iter().flat_map(|stages| &stages.jacobians);
         let by_stages = by_stages.filter(|_| self.matrices == Matrices::Stages);
-        let mut force = vec![0.0_f64; n];
-        for jacobian in by_stages.chain([&self.jacobian]) {
-            for (i, force) in force.iter_mut().enumerate() {
-                let terms = (0..n).map(|j| (jacobian[j * n + i] * q[j]).abs());
-                *force = terms.sum::<f64>().max(*force);
-            }
-        }
+        let jacobians = by_stages.chain([&self.jacobian]);
+        let force = |i: usize| {
+            let terms = |jacobian: &Vec<f64>| -> f64 {
+                (0..n).map(|j| (jacobian[j * n + i] * q[j]).abs()).sum()
+            };
+            jacobians.clone().map(terms).fold(0.0, f64::max)
+        };
         let mut square = 0.0;
         for i in 0..n {
             let position = q[i].abs() + (h * v[i]).abs();
             let stiff = q[i].abs() / (h.abs() * REAL);
-            let velocity = v[i].abs() + stiff.min(h.abs() * force[i]);
+            let velocity = v[i].abs() + stiff.min(h.abs() * force(i));
             square += (position * weights[i]).powi(2) + (velocity * weights[n + i]).powi(2);
         }
         ROUNDING * f64::EPSILON * (square / (2.0 * n.max(1) as f64)).sqrt()
