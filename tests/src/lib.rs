@@ -12,7 +12,7 @@ pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 
 use models::{Entry, Model, StartOptions, Visitor};
-use ukcore::State;
+use ukcore::{Solver, SolverOptions, State};
 
 /// Runs `check` on every model of the registry.
 ///
@@ -22,6 +22,22 @@ pub fn every_model(check: impl Fn(&Entry)) {
     let models = models::entries();
     assert!(!models.is_empty(), "the registry has no model");
     models.iter().for_each(check);
+}
+
+/// Runs `check` on every model of the registry in each of twenty random states near its start, on its constraints. They come from a
+/// generator with this seed, a new one for each model, which `check` may draw more from; its solver serves all states of a model.
+///
+/// # Panics
+/// Where `check` does.
+pub fn every_state(seed: u64, check: impl Fn(&Entry, &State, &mut Solver, &mut Random)) {
+    every_model(|model| {
+        let mut random = Random::new(seed);
+        let mut solver = Solver::new(&model.mechanism, SolverOptions::default());
+        for _ in 0..20 {
+            let state = random.near(&model.mechanism, start(model), 0.01);
+            check(model, &state, &mut solver, &mut random);
+        }
+    });
 }
 
 /// The default start of a model with its default parameters.

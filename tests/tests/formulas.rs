@@ -3,7 +3,7 @@
 
 use models::UChain;
 use nalgebra::DVector;
-use tests::{Dense, Random, assert_close, every_model, largest, start};
+use tests::{Dense, Random, assert_close, every_state, largest};
 use ukcore::equations::{kkt, uk, up};
 use ukcore::solver::Formula;
 use ukcore::{Solver, SolverOptions};
@@ -12,62 +12,55 @@ use ukcore::{Solver, SolverOptions};
 const ACCURACY: f64 = 1e-9;
 /// Relative rank tolerance of the printed formulas: above the rounding of projected states, below any dependence in the models.
 const RANK: f64 = 1e-10;
-/// Random consistent states tried per model.
-const STATES: usize = 20;
 
 #[test]
 fn formulas_agree_with_the_oracle() {
-    every_model(|model| {
-        let mechanism = &model.mechanism;
-        let spec = mechanism.spec();
-        let mut random = Random::new(41);
-        for _ in 0..STATES {
-            let state = random.near(mechanism, start(model), 0.01);
-            let dense = Dense::of(mechanism, &state);
-            let expected = dense.udwadia_phohomsiri();
-            let scale = largest(expected.iter()).max(1.0);
-            // Regularity relative to the largest mass.
-            let values = dense.mass.clone().symmetric_eigenvalues();
-            let regular = values.min() > 1e-9 * values.max();
-            for formula in [
-                Formula::Auto,
-                Formula::UdwadiaKalaba,
-                Formula::UdwadiaPhohomsiri,
-                Formula::Kkt,
-            ] {
-                if formula == Formula::UdwadiaKalaba && !regular {
-                    continue;
-                }
-                let options = SolverOptions {
-                    formula,
-                    ..SolverOptions::default()
+    every_state(41, |model, state, _, _| {
+        let spec = model.mechanism.spec();
+        let dense = Dense::of(&model.mechanism, state);
+        let expected = dense.udwadia_phohomsiri();
+        let scale = largest(expected.iter()).max(1.0);
+        // Regularity relative to the largest mass.
+        let values = dense.mass.clone().symmetric_eigenvalues();
+        let regular = values.min() > 1e-9 * values.max();
+        for formula in [
+            Formula::Auto,
+            Formula::UdwadiaKalaba,
+            Formula::UdwadiaPhohomsiri,
+            Formula::Kkt,
+        ] {
+            if formula == Formula::UdwadiaKalaba && !regular {
+                continue;
+            }
+            let options = SolverOptions {
+                formula,
+                ..SolverOptions::default()
+            };
+            let mut solver = Solver::new(&model.mechanism, options);
+            let solution = solver
+                .solve(state.t, &state.q, &state.v)
+                .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", model.id));
+            let mut fast = vec![0.0; spec.n()];
+            solver
+                .acceleration(state.t, &state.q, &state.v, &mut fast)
+                .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", model.id));
+            for i in 0..spec.n() {
+                let what = format!("{}, {formula:?}, {}", model.id, spec.coords[i]);
+                assert_close(
+                    &what,
+                    solution.acceleration[i],
+                    expected[i],
+                    ACCURACY * scale,
+                );
+                assert_close(&what, fast[i], expected[i], ACCURACY * scale);
+            }
+            if formula == Formula::Auto {
+                let chosen = if regular {
+                    Formula::UdwadiaKalaba
+                } else {
+                    Formula::UdwadiaPhohomsiri
                 };
-                let mut solver = Solver::new(mechanism, options);
-                let solution = solver
-                    .solve(state.t, &state.q, &state.v)
-                    .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", model.id));
-                let mut fast = vec![0.0; spec.n()];
-                solver
-                    .acceleration(state.t, &state.q, &state.v, &mut fast)
-                    .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", model.id));
-                for i in 0..spec.n() {
-                    let what = format!("{}, {formula:?}, {}", model.id, spec.coords[i]);
-                    assert_close(
-                        &what,
-                        solution.acceleration[i],
-                        expected[i],
-                        ACCURACY * scale,
-                    );
-                    assert_close(&what, fast[i], expected[i], ACCURACY * scale);
-                }
-                if formula == Formula::Auto {
-                    let chosen = if regular {
-                        Formula::UdwadiaKalaba
-                    } else {
-                        Formula::UdwadiaPhohomsiri
-                    };
-                    assert_eq!(solution.formula, chosen, "{}", model.id);
-                }
+                assert_eq!(solution.formula, chosen, "{}", model.id);
             }
         }
     });
@@ -75,68 +68,60 @@ fn formulas_agree_with_the_oracle() {
 
 #[test]
 fn printed_formulas_agree_with_the_solver() {
-    every_model(|model| {
-        let mechanism = &model.mechanism;
-        let spec = mechanism.spec();
-        let mut random = Random::new(42);
-        let mut solver = Solver::new(mechanism, SolverOptions::default());
-        for _ in 0..STATES {
-            let state = random.near(mechanism, start(model), 0.01);
-            let solution = solver
-                .solve(state.t, &state.q, &state.v)
-                .unwrap_or_else(|e| panic!("{}: {e}", model.id));
-            let Dense {
-                mass,
-                force,
-                nonideal,
-                jacobian,
-                rhs,
-            } = Dense::of(mechanism, &state);
-            let expected = DVector::from_vec(solution.acceleration);
-            let scale = largest(expected.iter()).max(1.0);
-            let agrees = |equation: &str, found: &DVector<f64>| {
-                let off = largest((found - &expected).iter());
-                assert!(
-                    off <= ACCURACY * scale,
-                    "{}, {equation}: {off:e} off",
-                    model.id
-                );
-            };
-            let all = &force + &nonideal;
-            let by_19 = up::acceleration(&mass, &all, &jacobian, &rhs, RANK)
-                .expect("[M | Aᵀ] has full rank");
-            agrees("eq. 19", &by_19);
-            // The saddle-point matrix is regular only without redundant constraints.
-            if solution.redundant.is_empty() {
-                let (by_kkt, _) = kkt::solve(&mass, &all, &jacobian, &rhs)
-                    .expect("the saddle-point matrix is regular");
-                agrees("saddle point", &by_kkt);
-            }
-            if solution.formula != Formula::UdwadiaKalaba {
-                continue;
-            }
-            let by_13 = uk::acceleration_nonideal(&mass, &force, &nonideal, &jacobian, &rhs, RANK);
-            agrees("eq. 13", &by_13.expect("M is regular"));
-            if !spec.structure.nonideal {
-                let by_15 = uk::acceleration(&mass, &force, &jacobian, &rhs, RANK);
-                agrees("eq. 15", &by_15.expect("M is regular"));
-            }
-            let ideal =
-                uk::ideal_force(&mass, &force, &jacobian, &rhs, RANK).expect("M is regular");
-            let nonideal =
-                uk::nonideal_force(&mass, &nonideal, &jacobian, RANK).expect("M is regular");
-            let size = ideal.norm().max(1.0);
-            for (equation, found, expected) in [
-                ("eq. 11", ideal, solution.ideal_force),
-                ("eq. 12", nonideal, solution.nonideal_force),
-            ] {
-                let off = (found - DVector::from_vec(expected)).norm();
-                assert!(
-                    off <= ACCURACY * size,
-                    "{}, {equation}: {off:e} off",
-                    model.id
-                );
-            }
+    every_state(42, |model, state, solver, _| {
+        let spec = model.mechanism.spec();
+        let solution = solver
+            .solve(state.t, &state.q, &state.v)
+            .unwrap_or_else(|e| panic!("{}: {e}", model.id));
+        let Dense {
+            mass,
+            force,
+            nonideal,
+            jacobian,
+            rhs,
+        } = Dense::of(&model.mechanism, state);
+        let expected = DVector::from_vec(solution.acceleration);
+        let scale = largest(expected.iter()).max(1.0);
+        let agrees = |equation: &str, found: &DVector<f64>| {
+            let off = largest((found - &expected).iter());
+            assert!(
+                off <= ACCURACY * scale,
+                "{}, {equation}: {off:e} off",
+                model.id
+            );
+        };
+        let all = &force + &nonideal;
+        let by_19 =
+            up::acceleration(&mass, &all, &jacobian, &rhs, RANK).expect("[M | Aᵀ] has full rank");
+        agrees("eq. 19", &by_19);
+        // The saddle-point matrix is regular only without redundant constraints.
+        if solution.redundant.is_empty() {
+            let (by_kkt, _) = kkt::solve(&mass, &all, &jacobian, &rhs)
+                .expect("the saddle-point matrix is regular");
+            agrees("saddle point", &by_kkt);
+        }
+        if solution.formula != Formula::UdwadiaKalaba {
+            return;
+        }
+        let by_13 = uk::acceleration_nonideal(&mass, &force, &nonideal, &jacobian, &rhs, RANK);
+        agrees("eq. 13", &by_13.expect("M is regular"));
+        if !spec.structure.nonideal {
+            let by_15 = uk::acceleration(&mass, &force, &jacobian, &rhs, RANK);
+            agrees("eq. 15", &by_15.expect("M is regular"));
+        }
+        let ideal = uk::ideal_force(&mass, &force, &jacobian, &rhs, RANK).expect("M is regular");
+        let nonideal = uk::nonideal_force(&mass, &nonideal, &jacobian, RANK).expect("M is regular");
+        let size = ideal.norm().max(1.0);
+        for (equation, found, expected) in [
+            ("eq. 11", ideal, solution.ideal_force),
+            ("eq. 12", nonideal, solution.nonideal_force),
+        ] {
+            let off = (found - DVector::from_vec(expected)).norm();
+            assert!(
+                off <= ACCURACY * size,
+                "{}, {equation}: {off:e} off",
+                model.id
+            );
         }
     });
 }
