@@ -1,9 +1,10 @@
 //! What must hold whatever the motion: energy, momentum, d'Alembert's and Gauss's principles.
 
+use crate::every::{every_model, every_state, start};
 use models::{KnifeEdge, Model, Pendulum, RigidBody, StartOptions};
 use nalgebra::DVector;
-use tests::{Dense, assert_close, every_model, every_state, largest, start};
-use ukcore::{Simulation, Solver, SolverOptions};
+use tests::{Dense, assert_close, largest};
+use ukcore::Simulation;
 
 /// Relative accuracy of quantities computed once from a state: a solve loses some digits to the condition of the constraints.
 const ROUNDING: f64 = 1e-9;

@@ -1,9 +1,10 @@
 //! All formulas give one acceleration: eqs. 13 and 19, the saddle-point system, the solver's fast paths, and a dense oracle of the
 //! tests' own.
 
+use crate::every::every_state;
 use models::UChain;
 use nalgebra::DVector;
-use tests::{Dense, Random, assert_close, every_state, largest};
+use tests::{Dense, Random, assert_close, largest};
 use ukcore::equations::{kkt, uk, up};
 use ukcore::solver::Formula;
 use ukcore::{Solver, SolverOptions};
