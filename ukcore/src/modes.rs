@@ -153,8 +153,8 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
 /// itself, however far it is carried by the others.
 const LIGHTEST: f64 = 1e-12;
 
-/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is no
-/// inertia at all.
+/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is
+/// no inertia at all.
 pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
     let heaviest = mass.diagonal().max();
     mass.diagonal().map(|m| match m > 0.0 {

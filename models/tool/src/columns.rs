@@ -160,6 +160,7 @@ fn means(name: &str, known: &str) -> bool {
         _ => false,
     }
 }
+
 /// A name, with a unit behind where there is one.
 pub(crate) fn labelled((name, unit): (impl Into<String>, String)) -> String {
     match unit.as_str() {

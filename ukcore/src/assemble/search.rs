@@ -7,8 +7,8 @@ use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
 use crate::scan::largest;
 
-/// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls each
-/// time by the share for which it counts, in the end to rounding.
+/// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls
+/// each time by the share for which it counts, in the end to rounding.
 const TIMES: usize = 3;
 
 /// The search for q, then for q̇.
@@ -134,7 +134,8 @@ impl Search {
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
         for even in [false, true] {
-            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
+            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is
+            // long.
             if even {
                 self.manifold.even();
             }

@@ -134,8 +134,8 @@ impl Manifold {
         cost
     }
 
-    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns 0,
-    /// or the sum of the squares of the scaled residuals where it is least.
+    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns
+    /// 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search_part(
         &mut self,
         at: &At<'_, f64>,

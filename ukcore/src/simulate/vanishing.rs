@@ -3,7 +3,8 @@
 //! Such a row says nothing there of the motion, and its direction is reversed behind the place: along a smooth motion it goes through zero.
 //! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
 //! from it by their length on the way. A row with an entry that stays as it is never vanishes, however small that is beside others, in
-//! whatever units. Rows are looked at before any of them can have changed by half of itself; that is at each step only where steps are long.
+//! whatever units. Rows are looked at before any of them can have changed by half of itself; that is at each step only where steps are
+//! long.
 //!
 //! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
 //! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
@@ -148,8 +149,8 @@ impl Matrix {
 }
 
 impl RowWatch {
-    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to imply
-    /// each other, combinations of rows are not looked at.
+    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to
+    /// imply each other, combinations of rows are not looked at.
     pub(super) fn new(method: Method, tolerance: f64) -> Self {
         RowWatch {
             together: method != Method::Dop853 || tolerance > CLOSE,
@@ -157,8 +158,8 @@ impl RowWatch {
         }
     }
 
-    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step on
-    /// which a combination of rows does.
+    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step
+    /// on which a combination of rows does.
     pub(super) fn vanishing(
         &mut self,
         mech: &Prepared,
