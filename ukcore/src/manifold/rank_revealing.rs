@@ -73,6 +73,9 @@ impl Factors {
         }
         self.hold(jacobian, &newton.acceptance.held);
         let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
+        let (q, v) = at.level.state(x, at.other);
+        let measure = &mut dense.measure;
+        measure.take(at.mech, at.t, [q, v], jacobian, mass);
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
