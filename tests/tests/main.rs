@@ -56,6 +56,7 @@ mod switches;
 mod tapes;
 mod tree;
 mod turned;
+mod units;
 mod vanishing;
 mod vectors;
 mod verify;

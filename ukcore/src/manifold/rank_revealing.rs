@@ -85,6 +85,21 @@ impl Factors {
         ranked.map_err(|fault| mass_error(spec, fault))
     }
 
+    /// What makes coordinates of different units comparable at a state, A of which comes into `jacobian`.
+    pub(super) fn measure(
+        &mut self,
+        mech: &Prepared,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        jacobian: &mut [f64],
+    ) -> &[f64] {
+        mech.jacobian(t, q, v, jacobian);
+        mech.mass_matrix(t, q, &mut self.mass);
+        let measure = &mut self.dense.measure;
+        measure.take(mech, t, [q, v], jacobian, &self.mass);
+        &measure.scale
+    }
+
     /// Whether there are rows of a significance below the ceiling.
     pub(super) fn doubts(&self) -> bool {
         let pivots = self.dense.cod.pivots();
