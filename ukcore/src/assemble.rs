@@ -165,6 +165,8 @@ pub(crate) struct Held {
     pub(crate) velocities: Vec<usize>,
     /// Coordinates of whose position the guess says nothing: of several states they do not choose.
     pub(crate) untold: Vec<usize>,
+    /// Coordinates of whose velocity it says nothing: these follow, at whatever size, before one of which it speaks is changed.
+    pub(crate) untold_rates: Vec<usize>,
     /// Of quaternions the coordinates, four by four, in whose velocities an angular velocity stands.
     pub(crate) turning: Vec<(usize, GuessKind)>,
 }
@@ -174,8 +176,7 @@ impl Held {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,
-            untold: Vec::new(),
-            turning: Vec::new(),
+            ..Held::default()
         }
     }
 
@@ -193,8 +194,7 @@ impl Held {
         Held {
             positions: others(&self.positions),
             velocities: others(&self.velocities),
-            untold: self.untold.clone(),
-            turning: self.turning.clone(),
+            ..self.clone()
         }
     }
 

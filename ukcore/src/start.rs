@@ -124,6 +124,7 @@ impl Prepared {
         };
         let held = Held {
             untold: (0..n).collect(),
+            untold_rates: (0..n).collect(),
             ..Held::default()
         };
         let mut said = Said { guess, held };
@@ -134,12 +135,13 @@ impl Prepared {
             };
             values[told.coordinate] = told.value;
             held.extend(told.held.then_some(told.coordinate));
-            match told.kind {
-                GuessKind::Position => said.held.untold.retain(|j| *j != told.coordinate),
-                GuessKind::Velocity => {}
-                GuessKind::Omega | GuessKind::Spin => {
-                    said.held.turning.push((told.coordinate, told.kind));
-                }
+            let untold = match told.kind {
+                GuessKind::Position => &mut said.held.untold,
+                _ => &mut said.held.untold_rates,
+            };
+            untold.retain(|j| *j != told.coordinate);
+            if let GuessKind::Omega | GuessKind::Spin = told.kind {
+                said.held.turning.push((told.coordinate, told.kind));
             }
         });
         Ok(said)

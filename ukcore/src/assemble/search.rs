@@ -7,6 +7,10 @@ use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
 use crate::scan::largest;
 
+/// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls each
+/// time by the share for which it counts, in the end to rounding.
+const TIMES: usize = 3;
+
 /// The search for q, then for q̇.
 pub(crate) struct Search {
     pub(crate) manifold: Manifold,
@@ -45,8 +49,20 @@ impl Search {
         q: Vec<f64>,
     ) -> Result<State, Error> {
         let mut search = Search::new(mech, guess, &held.velocities);
+        let at = At::new(mech, Level::Velocity, guess.t, &q);
         let v = held.rates(&q, &guess.v);
-        let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
+        let told = |j: &usize| !held.untold_rates.contains(j);
+        let told: Vec<usize> = search.free.iter().copied().filter(told).collect();
+        if told.is_empty() {
+            let v = search.find(&at, &v)?;
+            return Ok(State { t: guess.t, q, v });
+        }
+        search.manifold.lighten(&held.untold_rates);
+        let (wish, mut v) = (v.clone(), v);
+        for _ in 0..TIMES {
+            told.iter().for_each(|&j| v[j] = wish[j]);
+            v = search.find(&at, &v)?;
+        }
         Ok(State { t: guess.t, q, v })
     }
 

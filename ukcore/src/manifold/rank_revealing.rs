@@ -26,11 +26,16 @@ const NEARBY: usize = 3;
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
 
+/// What follows others has their inertia times the square of this.
+const LIGHT: f64 = 1e-3;
+
 /// Factors of M and A.
 #[derive(Debug, Clone)]
 pub(super) struct Factors {
     pub(super) dense: Dense,
     mass: Vec<f64>,
+    /// Coordinates whose inertia counts [`LIGHT`]² times.
+    pub(super) light: Vec<usize>,
     rhs: Vec<f64>,
     /// The nearest place so far.
     best: Vec<f64>,
@@ -47,6 +52,7 @@ impl Factors {
         Factors {
             dense: Dense::new(mechanism.spec()),
             mass: vec![0.0; n * n],
+            light: Vec::new(),
             rhs: vec![0.0; m],
             best: vec![0.0; n],
             place: None,
@@ -67,6 +73,13 @@ impl Factors {
         let jacobian = &mut newton.jacobian;
         let spec = at.mech.spec();
         at.mass_matrix(x, &mut self.mass);
+        let n = self.q.len();
+        for &j in &self.light {
+            self.mass[j * n..(j + 1) * n]
+                .iter_mut()
+                .for_each(|m| *m *= LIGHT);
+            (0..n).for_each(|i| self.mass[i * n + j] *= LIGHT);
+        }
         if !all_finite(&self.mass) || !all_finite(jacobian) {
             let what = diagnose::non_finite_matrices(spec, &self.mass, jacobian);
             return Err(Error::NonFinite { what });

@@ -107,6 +107,11 @@ impl Manifold {
         &self.newton.acceptance.ease
     }
 
+    /// Lets `coordinates` follow the others, as if they had next to no inertia.
+    pub(crate) fn lighten(&mut self, coordinates: &[usize]) {
+        self.factors.light = coordinates.to_vec();
+    }
+
     /// From here on coordinates move as readily as each other.
     pub(crate) fn even(&mut self) {
         let ease = &mut self.newton.acceptance.ease;
