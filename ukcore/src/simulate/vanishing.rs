@@ -307,9 +307,9 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let [seen, here] = [&self.seen.entries[..], &self.here.entries];
         let (squares, products) = (&mut self.here.squares, &mut self.products);
-        // Where nothing came before, as from rest: the change from there is all there is of it.
+        // Where nothing came before, as from rest, or the run has gone back since: the change from there is all there is of it.
         let ratio = (self.here.t - self.seen.t) / (self.seen.t - self.past.t);
-        let (past, ratio) = match ratio.is_finite() {
+        let (past, ratio) = match ratio > 0.0 && ratio.is_finite() {
             true => (&self.past.entries[..], ratio),
             false => (seen, 0.0),
         };
