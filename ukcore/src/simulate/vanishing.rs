@@ -350,6 +350,12 @@ impl RowWatch {
         })
     }
 
+    /// When rows are looked at next.
+    #[cfg(test)]
+    pub(super) fn due(&self) -> f64 {
+        self.due
+    }
+
     fn scale(&self) -> Vec<f64> {
         let measure = self.measure.as_ref();
         measure.map_or_else(Vec::new, |measure| measure.scale.clone())
