@@ -437,7 +437,7 @@ ukcore::multibody! {
 #[test]
 fn rest_in_a_crossing_is_named_in_any_units() {
     let up = std::f64::consts::FRAC_PI_2;
-    for (push, turn, rate) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-2.0, 0.3, 1e-12)] {
+    for (push, turn, rate) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-2.0, 0.3, 1e-15)] {
         let folded = Folded {
             push,
             turn,

@@ -221,9 +221,9 @@ fn classes(spec: &Spec) -> (Vec<usize>, usize, Vec<Turn>) {
     let mut names: Vec<String> = (0..n).map(|i| spec.coordinate_unit(i).to_owned()).collect();
     let declared = !spec.coordinate_units.is_empty();
     let number = |i: usize| declared && matches!(spec.coordinate_unit(i), "" | "rad");
-    for i in 0..n {
+    for (i, name) in names.iter_mut().enumerate() {
         if number(i) || structure.angles.contains(&i) {
-            names[i] = "rad".to_owned();
+            "rad".clone_into(name);
         }
     }
     let unit = [structure.solve.regular, structure.solve.turned].concat();

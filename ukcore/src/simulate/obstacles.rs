@@ -23,6 +23,9 @@ const UNTOLD: f64 = 1e-5;
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
 
+/// A velocity below this share of the one that is reached within the size of the coordinates is what rounding leaves of rest.
+const STILL: f64 = 64.0 * f64::EPSILON;
+
 /// A velocity along an acceleration, in units of the one that is reached within the size of the coordinates: what its path asks for
 /// outweighs the forces.
 const FAST: f64 = 4.0;
@@ -266,8 +269,7 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
         measure.size(&acceleration),
         size(mechanism, start.into(), &measure),
     );
-    // What the path of a velocity asks for goes by its square: below this it is lost in the rounding of the acceleration.
-    let rests = measure.size(v) <= (f64::EPSILON * size * most).sqrt();
+    let rests = measure.size(v) <= STILL * (size * most).sqrt();
     if !(rests && most > 0.0) {
         return None;
     }
