@@ -37,5 +37,6 @@ mod stiff;
 mod switches;
 mod tree;
 mod turned;
+mod units;
 mod vanishing;
 mod vectors;

@@ -50,6 +50,7 @@ pub mod lanes;
 mod linearise;
 mod lu;
 pub mod manifold;
+mod measure;
 pub mod mechanism;
 mod metric;
 pub mod model;

@@ -98,6 +98,7 @@ impl Manifold {
         let mut manifold = Manifold::new(mechanism);
         let acceptance = &mut manifold.newton.acceptance;
         (acceptance.ease, acceptance.held) = (ease, held);
+        acceptance.units.clear();
         manifold
     }
 
