@@ -8,7 +8,8 @@
 //! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
 //! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
 //! mechanism together; the nearest in that metric is taken, over all that depends on the choice. Where interval arithmetic shows that none
-//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess.
+//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess, and more
+//! where the signs of det ∂φ/∂q at the solutions tell that one is missing.
 
 use crate::diagnose;
 use crate::error::Error;

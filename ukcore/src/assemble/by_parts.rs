@@ -16,8 +16,12 @@ pub(super) const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and rounds of others that are ever
-/// farther off. After the first round they end when each solution has been met twice: the chance that the next one leads to a solution not
-/// yet met is about the share of those met once (Good 1953, The population frequencies of species, Biometrika 40, 237-264).
+/// farther off. After the first round they end when each solution has been met twice and none is known to be missing.
+///
+/// The chance that the next beginning leads to a solution not yet met is about the share of those met once (Good 1953, The population
+/// frequencies of species, Biometrika 40, 237-264). That one is missing is seen from the signs of det ∂φ/∂x: their sum over all solutions,
+/// the degree of φ, is that for any other lengths of the bars (Milnor 1965, Topology from the differentiable viewpoint, §5), so 0, as for
+/// some there is no solution.
 const BEGINNINGS: usize = SHAKES.len() + ROUNDS * ROUND;
 
 /// Random beginnings of one round.
@@ -64,6 +68,35 @@ impl Straight {
     /// How far the parts `group` are, if all have a solution.
     fn distance(&self, group: &[usize]) -> Option<f64> {
         group.iter().map(|part| self.distances[*part]).sum()
+    }
+}
+
+/// The solutions of a part that beginnings led to.
+#[derive(Default)]
+struct Met {
+    found: Vec<Found>,
+    /// Whether each was met but once.
+    once: Vec<bool>,
+    /// Sum of the signs of det ∂φ/∂x.
+    degree: i32,
+}
+
+impl Met {
+    /// Takes a solution, at which det ∂φ/∂x has the sign `orientation`.
+    fn enter(&mut self, next: Found, orientation: impl FnOnce(&[f64]) -> i32) {
+        let same = |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
+        if let Some(known) = self.found.iter().position(same) {
+            self.once[known] = false;
+            return;
+        }
+        self.degree += orientation(&next.x);
+        self.found.push(next);
+        self.once.push(true);
+    }
+
+    /// Whether no other one is expected, or so many are that they do not lie apart.
+    fn seem_all(&self) -> bool {
+        self.degree == 0 && !self.once.contains(&true) || 2 * self.found.len() > ROUND
     }
 }
 
@@ -226,12 +259,9 @@ impl<'a> ByParts<'a> {
     ) -> Vec<Found> {
         let distance = straight.and_then(|straight| straight.distances[part]);
         let part = &self.parts[part];
-        let (mut found, mut random) = (Vec::<Found>::new(), Random::new(SEED));
-        let mut once: Vec<bool> = Vec::new();
+        let (mut met, mut random) = (Met::default(), Random::new(SEED));
         for beginning in 0..BEGINNINGS {
-            let further = beginning >= SHAKES.len() + ROUND;
-            // Where most are new they do not lie apart.
-            if further && (!once.contains(&true) || 2 * found.len() > ROUND) {
+            if beginning >= SHAKES.len() + ROUND && met.seem_all() {
                 break;
             }
             let known = straight.zip(distance).filter(|_| beginning == 0);
@@ -246,16 +276,9 @@ impl<'a> ByParts<'a> {
             let Some(next) = next else {
                 continue;
             };
-            let same =
-                |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
-            match found.iter().position(same) {
-                Some(known) => once[known] = false,
-                None => {
-                    found.push(next);
-                    once.push(true);
-                }
-            }
-            let first = found[0].distance;
+            let manifold = &mut self.search.manifold;
+            met.enter(next, |x| manifold.orientation(self.at, part, x));
+            let first = met.found[0].distance;
             if !part.is_determined()
                 || self.search.begun >= MOST
                 || beginning == 0 && self.is_alone(part, x, bound.max(first))
@@ -263,8 +286,8 @@ impl<'a> ByParts<'a> {
                 break;
             }
         }
-        found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        found
+        met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        met.found
     }
 
     /// Whether a solution of `part` less than `distance` from the guess, or as far, is the only one there.
@@ -357,5 +380,24 @@ pub(super) fn shake(x: &mut [f64], free: &[usize], by: f64) {
     for (k, &j) in free.iter().enumerate() {
         let along = ((k as f64 + 1.0) * GOLDEN).fract();
         x[j] += by * (2.0 * along - 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each solution twice, in turn: of two rows with opposite signs all are met, of one or three another is missing.
+    #[test]
+    fn an_odd_solution_is_not_the_last() {
+        for (signs, all) in [(&[1][..], false), (&[1, -1], true), (&[1, -1, 1], false)] {
+            let mut met = Met::default();
+            for k in (0..signs.len()).chain(0..signs.len()) {
+                let (x, distance) = (vec![1.0 + k as f64], 0.0);
+                met.enter(Found { x, distance }, |_| signs[k]);
+            }
+            assert_eq!(met.found.len(), signs.len());
+            assert_eq!(met.seem_all(), all, "{signs:?}");
+        }
     }
 }
