@@ -65,6 +65,11 @@ struct Straight {
 }
 
 impl Straight {
+    /// Whether the unknowns of `part` are in `x` as they are here.
+    fn goes_through(&self, part: &Part, x: &[f64]) -> bool {
+        part.unknowns.iter().all(|j| x[*j] == self.x[*j])
+    }
+
     /// How far the parts `group` are, if all have a solution.
     fn distance(&self, group: &[usize]) -> Option<f64> {
         group.iter().map(|part| self.distances[*part]).sum()
@@ -119,8 +124,28 @@ impl<'a> ByParts<'a> {
     /// All parts solved as near to the guess as is found.
     pub(super) fn found_nearest(&mut self) -> Option<Found> {
         let straight = self.straight();
+        self.nearest_of_all(&straight)
+    }
+
+    fn nearest_of_all(&mut self, straight: &Straight) -> Option<Found> {
         let all: Vec<usize> = (0..self.parts.len()).collect();
-        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(&straight))
+        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(straight))
+    }
+
+    /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first: in
+    /// each of them it is another one.
+    pub(super) fn found_near(&mut self, (times, none): (f64, f64)) -> Option<(Found, Vec<Found>)> {
+        let straight = self.straight();
+        let nearest = self.nearest_of_all(&straight)?;
+        let all: Vec<usize> = (0..self.parts.len()).collect();
+        let mut others = Vec::new();
+        for group in self.groups(&all) {
+            let bound = times.powi(2) * self.distance(&group, &nearest.x).max(none * none);
+            let before = (self.guess, Some(&straight));
+            self.others(&group, &nearest.x, before, bound, &mut others);
+        }
+        others.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        Some((nearest, others))
     }
 
     /// The first solution of each part that is found.
@@ -177,11 +202,8 @@ impl<'a> ByParts<'a> {
                 if first.distance >= within {
                     break;
                 }
-                let same = |known: &&Straight| {
-                    let mut unknowns = self.parts[group[0]].unknowns.iter();
-                    unknowns.all(|j| first.x[*j] == known.x[*j])
-                };
-                let known = known.filter(same);
+                let part = &self.parts[group[0]];
+                let known = known.filter(|known| known.goes_through(part, &first.x));
                 let rest = self.nearest(&group[1..], first.x, within - first.distance, known);
                 best = rest.map_or(best, |rest| {
                     Some(Found {
@@ -197,17 +219,18 @@ impl<'a> ByParts<'a> {
     }
 
     /// Other solutions of the parts `group`, which need each other, than `nearest`, less than `bound` from the guess, where all before is
-    /// as in `x`: they branch off it in one part, and from there on are the nearest there.
-    pub(super) fn others(
+    /// as in `x`, and maybe as it is `straight` from the guess: they branch off it in one part, and from there on are the nearest there.
+    fn others(
         &mut self,
         group: &[usize],
         nearest: &[f64],
-        x: &[f64],
+        (x, straight): (&[f64], Option<&Straight>),
         bound: f64,
         out: &mut Vec<Found>,
     ) {
         let (first, rest) = (group[0], &group[1..]);
-        for found in self.solutions(first, x, bound, None) {
+        let straight = straight.filter(|straight| straight.distances[first].is_some());
+        for found in self.solutions(first, x, bound, straight) {
             let left = bound - found.distance;
             if left <= 0.0 {
                 break;
@@ -225,15 +248,16 @@ impl<'a> ByParts<'a> {
                 continue;
             }
             let all = self.distance(rest, nearest);
+            let known = straight.filter(|known| known.goes_through(&self.parts[first], &found.x));
             for group in self.groups(rest) {
                 let others = all - self.distance(&group, nearest);
-                self.others(&group, nearest, &found.x, left - others, out);
+                self.others(&group, nearest, (&found.x, known), left - others, out);
             }
         }
     }
 
     /// The parts `open`, in those that need each other, be it through others of them.
-    pub(super) fn groups(&self, open: &[usize]) -> Vec<Vec<usize>> {
+    fn groups(&self, open: &[usize]) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for part in open {
             let needed =
@@ -362,7 +386,7 @@ impl<'a> ByParts<'a> {
     }
 
     /// The same of several parts.
-    pub(super) fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
+    fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
         let distances = group
             .iter()
             .map(|part| self.distance_of(&self.parts[*part], x));
