@@ -8,7 +8,8 @@
 //! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
 //! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
 //! mechanism together; the nearest in that metric is taken, over all that depends on the choice. Where interval arithmetic shows that none
-//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess.
+//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess, and more
+//! where the signs of det ∂φ/∂q at the solutions tell that one is missing.
 
 use crate::diagnose;
 use crate::error::Error;
@@ -128,7 +129,8 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 ///
 /// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
 /// looked for: a far guess has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one
-/// that the search from the guess leads to. `branches` tells of others that are as near.
+/// that the search from the guess leads to. [`assemble_with_alternatives`](crate::assemble_with_alternatives) tells of others that are as
+/// near, and how far which coordinate was moved.
 ///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in

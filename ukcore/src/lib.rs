@@ -74,7 +74,7 @@ mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
-pub use branches::{Assembled, branches};
+pub use branches::{Assembled, assemble_with_alternatives, branches};
 pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;

@@ -91,20 +91,10 @@ impl Search {
             return None;
         }
         let mut by_parts = ByParts::new(self, at, guess, &parts);
-        let nearest = by_parts.found_nearest()?.x;
-        let all: Vec<usize> = (0..parts.len()).collect();
-        let mut others = Vec::new();
-        for group in by_parts.groups(&all) {
-            let bound = times.powi(2) * by_parts.distance(&group, &nearest).max(none * none);
-            by_parts.others(&group, &nearest, guess, bound, &mut others);
-        }
-        others.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let mut ways = vec![self.projected(at, nearest)?];
-        ways.extend(
-            others
-                .into_iter()
-                .filter_map(|other| self.projected(at, other.x)),
-        );
+        let (nearest, others) = by_parts.found_near((times, none))?;
+        let mut ways = vec![self.projected(at, nearest.x)?];
+        let others = others.into_iter();
+        ways.extend(others.filter_map(|other| self.projected(at, other.x)));
         Some(ways)
     }
 
