@@ -125,3 +125,13 @@ fn coupled_four_bars_cost_what_their_null_space_costs() {
     assert!(forty <= 3450, "{twenty}, {forty}");
     assert!(100 * forty <= 205 * twenty, "{twenty}, {forty}");
 }
+
+/// Functions of one frame stand in all six rows: dividing its vectors before costs less than dividing what all rows have of them.
+#[test]
+fn platforms_on_legs_share_what_is_divided() {
+    let text = include_str!("../../../models/catalogue/src/stewart.rs");
+    let (_, text) = text.split_once("ukcore::multibody! {").expect("a macro");
+    let (text, _) = text.split_once("\n}\n").expect("its end");
+    let work = operations(text.parse().expect("tokens"));
+    assert!(work <= 2072, "{work}");
+}
