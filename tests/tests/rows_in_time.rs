@@ -248,3 +248,47 @@ fn jumps_are_named_early_and_late() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A bead on a hoop that is turned about its upright diameter.
+    Hoop {
+        params { w = 3.0 }
+        coords { x, y, z }
+        mass { x: 1, y: 1, z: 1 }
+        potential { 9.81 * z }
+        holonomic { sphere: sq(x) + sq(y) + sq(z) = 1, plane: x * sin(w * t) = y * cos(w * t) }
+        output { angle = atan2(x * cos(w * t) + y * sin(w * t), -z) }
+    }
+}
+
+/// Late, the time is known to seven digits, and with it all that a drive does: shorter steps make that no better, and are not taken.
+#[test]
+fn tolerances_below_the_rounding_of_a_late_time_cost_no_flood() {
+    let hoop = Hoop::default();
+    let angle = |t0: f64, method: Method| {
+        let phase = hoop.w * t0;
+        let (sin, cos) = phase.sin_cos();
+        let (r, z) = (0.4_f64.sin(), -0.4_f64.cos());
+        let v = hoop.w * r;
+        let (q, v) = (vec![r * cos, r * sin, z], vec![-v * sin, v * cos, 0.0]);
+        let run = Simulation::new(&hoop)
+            .start(State { t: t0, q, v })
+            .method(method)
+            .tolerance(1e-12)
+            .every(0.125)
+            .until(t0 + 2.0);
+        let run = run.unwrap_or_else(|e| panic!("{method} from {t0:e}: {e}"));
+        (run.output("angle").expect("declared"), run.work())
+    };
+    for method in [Method::Dop853, Method::Dopri5] {
+        let (expected, _) = angle(0.0, method);
+        let (found, work) = angle(1e9, method);
+        let off = expected.iter().zip(&found).map(|(a, b)| (a - b).abs());
+        let off = off.fold(0.0, f64::max);
+        assert!(off < 1e-6, "{method}: {off:e}");
+        assert!(
+            work.evaluations < 100_000 && work.rounded > 0,
+            "{method}: {work:?}"
+        );
+    }
+}

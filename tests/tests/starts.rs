@@ -4,7 +4,7 @@ use crate::linkage::FourBar;
 use tests::{assert_all_close, assert_close};
 use ukcore::assemble::residuals;
 use ukcore::model::StartOptions;
-use ukcore::{Error, Mechanism, Prepared, State};
+use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State};
 
 ukcore::multibody! {
     /// A four-bar linkage of bodies, whose crank may be driven.
@@ -206,4 +206,55 @@ fn what_goes_wrong_is_named() {
     assert_eq!(held, ["bar[0].angle"]);
     let names: Vec<&str> = Linkage::SPEC.starts.iter().map(|s| s.name).collect();
     assert_eq!(names, ["open", "crossed"]);
+}
+
+ukcore::multibody! {
+    /// A rod on three equal cranks, one of which would do. Where all lie in one line they may turn as one, or apart.
+    Coupled {
+        params { r = 0.3 }
+        bodies {
+            for k in 0..3 { planar crank[k] { mass: 0.5, inertia: 0.015, centre: [r / 2, 0] } }
+            planar coupler { mass: 1, inertia: 0.3, centre: [1, 0] }
+        }
+        holonomic {
+            for k in 0..3 {
+                base[k]: pin(ground.at([k, 0]), crank[k].at([0, 0]))
+                tip[k]: pin(crank[k].at([r, 0]), coupler.at([k, 0]))
+            }
+        }
+        start parallel(a = 0, w = 2) {
+            for k in 0..3 { crank[k].angle = a }
+            crank[0].omega = w
+            for k in 1..3 { crank[k].omega near w }
+        }
+    }
+}
+
+/// The inertia of what a start does not speak of takes nothing from velocities that it gives, so a motion can begin where branches cross,
+/// and beside that place, going to it or away.
+#[test]
+fn velocities_of_which_a_start_speaks_stay_where_they_may() {
+    let coupled = Coupled::default();
+    for a in [0.0, 1e-13, -1e-11, 1e-9, -1e-8, 1e-7, -1e-6, 1e-5, 0.7] {
+        for (w, tolerance) in [(2.0, 1e-4), (-3.0, 1e-6), (1e5, 1e-8), (-0.1, 1e-5)] {
+            let start = coupled.start("parallel", &[("a", a), ("w", w)].into());
+            let start = start.unwrap_or_else(|e| panic!("{a}, {w}: {e}"));
+            for i in Coupled::CRANK_ANGLE {
+                assert!((start.v[i] - w).abs() <= 1e-14 * w.abs(), "{a}: {start:?}");
+            }
+            for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+                let run = Simulation::new(&coupled)
+                    .start(start.clone())
+                    .method(method)
+                    .tolerance(tolerance)
+                    .until(3.0 / w.abs());
+                let run = run.unwrap_or_else(|e| panic!("{method}, {a}, {w}: {e}"));
+                let end = run.last().expect("an end");
+                for i in Coupled::CRANK_ANGLE {
+                    let off = (end.q[i] - a - w * end.t).abs();
+                    assert!(off < 300.0 * tolerance, "{method}, {a}, {w}: {off:e}");
+                }
+            }
+        }
+    }
 }

@@ -447,3 +447,47 @@ fn lengths_in_any_unit_are_as_good() {
         assert!(2 * work < 3 * evaluations, "{l:e}: {work} {evaluations}");
     }
 }
+
+ukcore::multibody! {
+    /// A weight hangs from a string that goes through a hole in a table, to a puck.
+    Hole {
+        coords { x, y, z }
+        mass { x: 1, y: 1, z: 2 }
+        potential { 2 * 9.81 * z }
+        holonomic { string: sqrt(sq(x) + sq(y)) - z = 2 }
+        output { spin = x * dot(y) - y * dot(x) }
+    }
+}
+
+/// A length that has come to zero does not get shorter: a motion that would have it so ends there, and does not creep on for ever.
+#[test]
+fn where_a_length_ends_so_does_the_motion() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for tolerance in [1e-2, 1e-5, 1e-8] {
+            for spin in [0.0, 1e-3] {
+                let run = Simulation::new(Hole::default())
+                    .start(State {
+                        t: 0.0,
+                        q: vec![1.0, 0.0, -1.0],
+                        v: vec![0.0, spin, 0.0],
+                    })
+                    .method(method)
+                    .tolerance(tolerance)
+                    .until(1.5);
+                match run {
+                    Ok(run) => {
+                        let found = run.output("spin").expect("declared");
+                        let off = found.last().expect("an end") - spin;
+                        assert!(spin > 0.0 && off.abs() < 10.0 * tolerance, "{off:e}");
+                    }
+                    Err(failure) => {
+                        let steps = failure.trajectory.work().steps;
+                        let told = failure.to_string();
+                        assert!(spin == 0.0 && steps < 2000, "{spin}: {steps}, {told}");
+                        assert!(told.contains("where `string` is implied"), "{told}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -26,8 +26,15 @@ const TIGHT: f64 = 1e-11;
 /// Attempts from one measurement of rounding to the next: it takes as many evaluations as some ten of them.
 const SELDOM: usize = 1000;
 
+/// Roundings of the time over which a difference is nothing but that of accelerations.
+const CLEARLY: f64 = 1024.0;
+
 /// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
 const STAGES: f64 = 1.5;
+
+/// Steps shorter than this share of the run would never end, and are asked whether they get anywhere; so many in a row are not by chance.
+const CREEPING: f64 = 1e-7;
+const STUCK: usize = 100;
 
 /// Why an attempted step is not accepted.
 enum Refusal {
@@ -62,6 +69,8 @@ struct Driver<'p> {
     shown: Option<(f64, Vec<f64>)>,
     /// Steps that were good but left their branches; those onto zeros of switches; those whose error is rounding.
     repeated: usize,
+    /// The last steps whose way their projection took back for the greater part.
+    undone: usize,
     landings: usize,
     rounded: usize,
     /// What rounding of a state makes of velocities in a unit of time, in the error norm; when it was measured, if a method is of the kind
@@ -124,10 +133,11 @@ impl<'p> Driver<'p> {
             passage: Passage::default(),
             shown: None,
             repeated: 0,
+            undone: 0,
             landings: 0,
             rounded: 0,
             noise: 0.0,
-            measured: (explicit && tolerance.relative <= TIGHT).then_some(0),
+            measured: explicit.then_some(0),
         }
     }
 
@@ -135,10 +145,18 @@ impl<'p> Driver<'p> {
     fn travel(mut self) -> (Report, Vec<f64>) {
         let outcome = self.run();
         let (scheme, course) = (self.scheme, &mut self.equations.course);
+        // Of what lies before states that are shown already nobody has been told.
+        let shown = self.shown.filter(|(t, _)| course.ahead(*t) > 0.0);
         let report = Report {
             outcome: outcome.unwrap_or_else(|error| {
                 let here = Sample::of(course.now.t, scheme.start());
-                Outcome::Failed(course.explain(error, here))
+                let mut trouble = course.explain(error, here);
+                if let Some((t, y)) = shown
+                    && course.ahead(trouble.state.t) < course.ahead(t)
+                {
+                    trouble.state = Sample::of(t, &y).to_state();
+                }
+                Outcome::Failed(trouble)
             }),
             steps: course.steps,
             rejected: course.rejected() - self.repeated,
@@ -239,6 +257,7 @@ impl Driver<'_> {
         let made = self.make(trial, rounding);
         self.survey(trial, made.is_ok())?;
         let error = made?;
+        self.progress(trial)?;
         let interpolated = self.stay(trial, error)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
@@ -259,7 +278,8 @@ impl Driver<'_> {
         Ok(early.max(late))
     }
 
-    /// Measures the rounding of accelerations, now and then: what an error of ε in each coordinate and velocity makes of them.
+    /// Measures the rounding of accelerations, now and then: what an error of ε in the time makes of them, and one of ε in each coordinate
+    /// and velocity where tolerances are tight.
     fn measure(&mut self) {
         let Equations { course, .. } = &self.equations;
         let (s, attempts) = (course.now.s, course.attempts);
@@ -267,21 +287,40 @@ impl Driver<'_> {
             return;
         }
         self.measured = Some(attempts);
+        let tolerance = self.settings.tolerance;
+        let Ok(mut rounding) = self.rounding_of_time(s) else {
+            return;
+        };
         let y = self.scheme.start();
         let n = y.len() / 2;
-        let (mut acceleration, mut jacobian) = (vec![0.0; n], vec![0.0; 2 * n * n]);
-        let measured = (self.equations).jacobian(s, y, &mut acceleration, &mut jacobian);
-        if measured.is_err() {
-            return;
-        }
-        let mut rounding = vec![0.0; n];
-        for (column, y) in jacobian.chunks_exact(n).zip(y) {
-            let pairs = rounding.iter_mut().zip(column);
-            pairs.for_each(|(rounding, slope)| *rounding += f64::EPSILON * (slope * y).abs());
+        if tolerance.relative <= TIGHT {
+            let (mut acceleration, mut jacobian) = (vec![0.0; n], vec![0.0; 2 * n * n]);
+            let measured = (self.equations).jacobian(s, y, &mut acceleration, &mut jacobian);
+            if measured.is_err() {
+                return;
+            }
+            for (column, y) in jacobian.chunks_exact(n).zip(y) {
+                let pairs = rounding.iter_mut().zip(column);
+                pairs.for_each(|(rounding, slope)| *rounding += f64::EPSILON * (slope * y).abs());
+            }
         }
         let still = y[..n].iter().map(|q| (0.0, *q, *q));
         let moved = rounding.iter().zip(&y[n..]).map(|(x, v)| (*x, *v, *v));
-        self.noise = STAGES * error_norm(still.chain(moved), self.settings.tolerance);
+        self.noise = STAGES * error_norm(still.chain(moved), tolerance);
+    }
+
+    /// What the rounding of the time makes of accelerations: late in a run from a late start all that depends on time is known no better.
+    fn rounding_of_time(&mut self, s: f64) -> Result<Vec<f64>, Cause> {
+        let y = self.scheme.start();
+        let n = y.len() / 2;
+        let (mut now, mut later) = (vec![0.0; n], vec![0.0; n]);
+        let ulp = f64::EPSILON * self.equations.at(s, y).t.abs();
+        self.equations.acceleration(s, y, &mut now)?;
+        (self.equations).acceleration(s + CLEARLY * ulp, y, &mut later)?;
+        let pairs = now.iter().zip(&later);
+        Ok(pairs
+            .map(|(now, later)| (later - now).abs() / CLEARLY)
+            .collect())
     }
 
     /// Projects the new state. Refuses if that fails or the change says that the step was a bad one.
@@ -325,6 +364,38 @@ impl Driver<'_> {
         Err(Refusal::End(
             jump.map(|error| Box::new(Trouble::new(raw, error))),
         ))
+    }
+
+    /// Refuses where projections have taken back the greater part of the way for many steps: velocities that lead off the constraints however
+    /// short the steps are.
+    fn progress(&mut self, trial: Trial) -> Result<(), Refusal> {
+        let Equations {
+            problem, course, ..
+        } = &mut self.equations;
+        if trial.h.abs() > CREEPING * course.end.s.abs() || self.scheme.keeps_constraints() {
+            self.undone = 0;
+            return Ok(());
+        }
+        let [old, new] = self.scheme.states();
+        let mut along = [0.0; 2];
+        for ((old, raw), new) in old.iter().zip(&self.raw).zip(new).take(old.len() / 2) {
+            let allowed = self.tolerance.at(old.abs());
+            let [way, back] = [raw - old, raw - new].map(|x| x / allowed);
+            along[0] += way * way;
+            along[1] += way * back;
+        }
+        let [way, back] = along;
+        let undone = way > 0.0 && back > 0.5 * way;
+        self.undone = if undone { self.undone + 1 } else { 0 };
+        if self.undone < STUCK {
+            return Ok(());
+        }
+        self.undone = 0;
+        let raw = Sample::of(trial.end.t, &self.raw);
+        match problem.stuck(raw) {
+            Some(error) => Err(Refusal::Undecided(Box::new(Trouble::new(raw, error)))),
+            None => Ok(()),
+        }
     }
 
     /// Shows the problem the step, whose error is `error`, with its interpolant if one is wanted. Returns the error of what the problem

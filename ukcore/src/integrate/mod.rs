@@ -154,6 +154,11 @@ pub(crate) trait Problem {
     fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
         let _ = (at, change);
     }
+    /// What ends a run that gets nowhere, since projections take back the way of each step; `at` is the end of such a step, not projected.
+    fn stuck(&mut self, at: Sample<'_>) -> Option<Error> {
+        let _ = at;
+        None
+    }
     /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes
     /// nearer.
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {

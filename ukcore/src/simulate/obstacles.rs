@@ -110,6 +110,17 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
 }
 
+/// The error of a motion that constraints do not let go on in the direction of its velocity: those which its next positions violate end
+/// there without a gradient, as a length does that is zero.
+pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
+    let spec = mechanism.spec();
+    let mut residual = vec![0.0; spec.holonomic];
+    mechanism.residual(at.t, at.q, &mut residual);
+    let ended = diagnose::offending(spec, &residual, &vec![1.0; spec.holonomic]);
+    let constraints: Vec<String> = ended.into_iter().map(|(name, _)| name).collect();
+    (!constraints.is_empty()).then_some(Error::Singular { constraints })
+}
+
 /// Where a motion from `old` meets the place where A loses a row; `None` where that is of no concern.
 pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
     let found = match found {

@@ -153,6 +153,10 @@ impl Problem for Run<'_> {
         self.recorder.projector.excess(at.t, at.q, at.v, change);
     }
 
+    fn stuck(&mut self, at: Sample<'_>) -> Option<Error> {
+        obstacles::stuck(self.solver.mechanism(), at)
+    }
+
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
         obstacles::jump(&mut self.solver, at, t_old)
     }

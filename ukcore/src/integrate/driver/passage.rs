@@ -48,6 +48,12 @@ const PLANS: usize = 6;
 /// So many steps of one size before and behind a position are made by longer ones.
 const BACK: usize = 8;
 
+/// Tolerance of the way back from a start, as a share of that of the run.
+const FINER: f64 = 0.1;
+
+/// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
+const ONE: f64 = 1e-3;
+
 /// Of the way to a position at least this share is gone at once.
 const LEAST: f64 = 0.1;
 
@@ -209,7 +215,7 @@ impl Driver<'_> {
             y = start;
         }
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
-        other.shown = Some(here);
+        other.shown = (here.0 != t).then_some(here);
         (other.passage.ahead, other.passage.untried) = (Some(position), true);
         // Equal steps go on from its end.
         other.passage.bounded = !last;
@@ -246,7 +252,7 @@ impl Driver<'_> {
         let (Some([from, to]), Some(position)) = (self.gap, &self.passage.ahead) else {
             return Ok(());
         };
-        let course = &mut self.equations.course;
+        let course = &self.equations.course;
         let left = course.ahead(position.t);
         let short = left < SHORT * 0.5 * (from + to) * course.h.abs();
         let known = !self.passage.untried || self.shown.is_some();
@@ -254,11 +260,13 @@ impl Driver<'_> {
         if known || !crossed || !short || !self.equations.switches.is_empty() {
             return Ok(());
         }
-        let Some((place, y)) = self.passage.before.pop_back() else {
+        let before = self.passage.before.pop_back();
+        let Some((place, y)) = before.or_else(|| self.run_up()) else {
             return Ok(());
         };
         self.passage.before.clear();
         self.passage.untried = false;
+        let course = &mut self.equations.course;
         self.shown = Some((course.now.t, self.scheme.start().to_vec()));
         course.now = place;
         self.scheme.end_mut().copy_from_slice(&y);
@@ -268,6 +276,31 @@ impl Driver<'_> {
             self.equations.course.blame(cause);
             Error::too_small(0.0)
         })
+    }
+
+    /// The place and state a step before the start of a run: a start so near to a position is a state of a motion that has come from
+    /// somewhere. `None` if there is no telling.
+    fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
+        let course = &self.equations.course;
+        let (h, from) = (course.h, course.now);
+        let place = Place {
+            s: from.s - h,
+            t: from.t - h,
+        };
+        let mut settings = *self.settings;
+        settings.tolerance.relative *= FINER;
+        settings.tolerance.absolute *= FINER;
+        (settings.first_step, settings.dense) = (None, false);
+        let start = self.scheme.start().to_vec();
+        let problem = &mut *self.equations.problem;
+        let mut other = Driver::new(Method::Dop853, problem, from.t, &start, place.t, &settings);
+        // None of it belongs to the run.
+        other.shown = Some((place.t - h, Vec::new()));
+        other.passage.bounded = true;
+        let (report, y) = other.travel();
+        let course = &mut self.equations.course;
+        course.attempts += report.steps + report.rejected;
+        matches!(report.outcome, Outcome::Reached).then_some((place, y))
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
@@ -283,11 +316,19 @@ impl Driver<'_> {
         }
         let found = problem.singular((!made && gap.is_none()).then_some(here));
         let end = Sample::of(trial.end.t, self.scheme.end());
-        let Some(found) = found.or_else(|| problem.vanishing(here, made.then_some(end))) else {
+        let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
+        let Some(mut found) = found else {
             let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
             self.passage.ahead.take_if(behind);
             return Ok(());
         };
+        if let Some(known) = &self.passage.ahead
+            && (known.gap, found.gap) == (0.0, 0.0)
+            && known.significance < found.significance
+            && (found.t - known.t).abs() * found.rate < ONE * found.significance
+        {
+            found.t = known.t;
+        }
         let left = course.ahead(found.t);
         let Some([from, to]) = gap else {
             self.passage.ahead = Some(found);
