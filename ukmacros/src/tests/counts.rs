@@ -203,3 +203,13 @@ fn jansens_legs_cost_as_bodies_what_they_cost_by_hand() {
         assert_as_by_hand(&bodies, &by_hand);
     }
 }
+
+/// Functions of one frame stand in all six rows: dividing its vectors before costs less than dividing what all rows have of them.
+#[test]
+fn platforms_on_legs_share_what_is_divided() {
+    let text = include_str!("../../../models/catalogue/src/stewart.rs");
+    let (_, text) = text.split_once("ukcore::multibody! {").expect("a macro");
+    let (text, _) = text.split_once("\n}\n").expect("its end");
+    let work = operations(text.parse().expect("tokens"));
+    assert!(work <= 2000, "{work}");
+}
