@@ -83,8 +83,8 @@ fn starts_that_leave_it_open_are_told() {
         assert_eq!(names.len(), 2, "{names:?}");
     }
     // Where a coordinate stays free other ways are not looked for, and what moved is told.
-    let free = assemble_with_alternatives(&FourBar::default(), &linkage_guess(), &[]).unwrap();
-    let state = assemble(&FourBar::default(), linkage_guess(), &[]).unwrap();
+    let free = assemble_with_alternatives(FourBar::default(), &linkage_guess(), &[]).unwrap();
+    let state = assemble(FourBar::default(), linkage_guess(), &[]).unwrap();
     assert_eq!(free.state, state);
     assert!(free.alternatives.is_empty() && !free.moved.is_empty());
     let crank = linkage.branches("crank", &StartOptions::new()).unwrap();
