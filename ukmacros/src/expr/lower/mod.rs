@@ -530,6 +530,7 @@ impl<'m> Lowering<'m> {
         };
         let env = Env::new(scope, place);
         let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), Load::default());
+        let mut told = false;
         match &equation.lhs.kind {
             ExprKind::Call(..) => {
                 let value = self.argument(&equation.lhs, &env);
@@ -538,6 +539,7 @@ impl<'m> Lowering<'m> {
                     load.clone_from(&joint.load);
                 }
                 let value = self.numbers(value, equation.lhs.loc);
+                told = value.is_error();
                 self.term(&equation.lhs, value, 1.0, &mut terms);
             }
             _ => self.chain(&equation.lhs, 1.0, &env, &mut terms),
@@ -545,7 +547,7 @@ impl<'m> Lowering<'m> {
         let left = terms.len();
         match &equation.rhs {
             Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
-            None if self.is_joint(&equation.lhs) => {}
+            None if told || self.is_joint(&equation.lhs) => {}
             None => self
                 .diag
                 .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
