@@ -328,6 +328,11 @@ cases! {
     direction_zero: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: slot(ground.at([0, 0]), a.at([0, 0]), «[0, 0]») }" => "`d` of `slot(p, q, d)` is a direction; it must not be zero";
     unknown_joint: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])), d: pim(ground.at([0, 0]), a.at([1, 0])) }" => "unknown function `pim`; did you mean `pin`?";
     no_joint_of_a_like_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «revolute»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `revolute`; joints are `ball`, `cylinder`, `disc`";
+    joint_in_error_with_reactions: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])) } output { f = norm(reaction(c)), x = reaction(c.x), m = moment(c) }" => "unknown function `pim`; did you mean `pin`?";
+    joint_twice: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a.at([1, 0]), b.at([0, 0])), «d»: pin(a.at([1, 0]), b.at([0, 0])) }" => "constraint `d` is the same equation as `c`; remove one";
+    component_twice: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { c: [x, y] = [sin(z), cos(z)]  «d»: [x, z] = [sin(z), t] }" => "constraint `d[0]` is the same equation as `c[0]`; remove one";
+    field_of_an_unknown_body: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = «amr».x, p = amr.angle }" => "unknown name `amr`; did you mean `arm`?";
+    field_of_a_struct: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = other.«x» }" => "no fields here";
     function_as_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { c: «norm([x, y])» }" => "a constraint is an equation: `lhs = rhs`";
     velocity_in_a_joint: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «rolls(a.at([0, 0, 0]), [0, 0, 1], 1)» }" => "move the constraint under `nonholonomic`";
     joint_that_acts: "bodies { planar a { mass: 1, inertia: 1 } } forces { «pin»(ground.at([0, 0]), a.at([0, 0])) }" => "`pin` is a joint; it stands under `holonomic`";
