@@ -183,11 +183,16 @@ pub(crate) fn suggest<'a>(
     names: impl IntoIterator<Item = &'a str>,
     remedy: &str,
 ) -> String {
-    let distance = |n: &str| strsim::levenshtein(&name.to_lowercase(), &n.to_lowercase());
-    let nearest = names.into_iter().map(|n| (distance(n), n)).min();
-    let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
-    match nearest.filter(|(d, n)| *d <= most(n)) {
-        Some((_, n)) => format!("; did you mean `{n}`?"),
+    match nearest(name, names) {
+        Some(n) => format!("; did you mean `{n}`?"),
         None => format!("; {remedy}"),
     }
+}
+
+/// The one of `names` that is most like `name`, if one is like it; two letters exchanged are one difference.
+pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let distance = |n: &str| strsim::osa_distance(&name.to_lowercase(), &n.to_lowercase());
+    let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
+    let (d, n) = names.into_iter().map(|n| (distance(n), n)).min()?;
+    (d <= most(n)).then_some(n)
 }

@@ -6,7 +6,7 @@ use crate::diag::{Diagnostics, is_same};
 use crate::expr::{Id, Kind, System};
 use crate::model::Model;
 use proc_macro2::Span;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Reports what makes the motion undetermined or a constraint meaningless.
 pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
@@ -19,7 +19,8 @@ pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &
 
 fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     let g = &system.graph;
-    let mut seen: HashMap<(Kind, Id), String> = HashMap::new();
+    let mut seen: HashMap<(Kind, Id), usize> = HashMap::new();
+    let mut same: BTreeMap<usize, usize> = BTreeMap::new();
     for (row, constraint) in system.constraints.iter().enumerate() {
         let name = constraint.item.text();
         let uses = g.uses(constraint.phi);
@@ -48,12 +49,37 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
         let (_, essence) = g.unscaled(constraint.phi);
         let key = (constraint.kind, essence);
         if let Some(other) = seen.get(&key) {
-            diag.error(
-                constraint.loc,
-                format!("constraint `{name}` is the same equation as `{other}`; remove one"),
-            );
+            same.insert(row, *other);
         }
-        seen.entry(key).or_insert(name);
+        seen.entry(key).or_insert(row);
+    }
+    repeated(system, &same, diag);
+}
+
+/// Reports rows that are the `same` as others: once where all rows of a constraint are those of another.
+fn repeated(system: &System, same: &BTreeMap<usize, usize>, diag: &Diagnostics) {
+    let whole = |row: usize| system.constraints[row].item.whole();
+    let mut rows: HashMap<String, Vec<usize>> = HashMap::new();
+    if !same.is_empty() {
+        for row in 0..system.constraints.len() {
+            rows.entry(whole(row)).or_default().push(row);
+        }
+    }
+    for (row, other) in same {
+        let (name, first) = (whole(*row), whole(*other));
+        let of_first = |r: &usize| same.get(r).is_some_and(|o| whole(*o) == first);
+        let (name, other) = match rows[&name].iter().all(of_first) {
+            true => (name, first),
+            false => {
+                let text = |row: usize| system.constraints[row].item.text();
+                (text(*row), text(*other))
+            }
+        };
+        // The same words at the same place are told once.
+        diag.error(
+            system.constraints[*row].loc,
+            format!("constraint `{name}` is the same equation as `{other}`; remove one"),
+        );
     }
 }
 

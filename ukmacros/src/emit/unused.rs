@@ -2,32 +2,27 @@
 
 use crate::model::{Model, Unused, unused as names};
 use crate::parse::Declaration;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 
-/// Items with the names of unused parameters and of unused values and functions declared by `let`, on which the lint `dead_code` works.
+/// Items with the names of unused parameters, of unused values and functions declared by `let` and of unused options of starts, on which
+/// the lint `dead_code` works.
 pub(super) fn unused(decl: &Declaration, model: &Model) -> TokenStream {
     let Unused {
         params,
         values,
         functions,
+        options,
     } = names(decl, model);
-    if params.is_empty() && values.is_empty() && functions.is_empty() {
+    if [&params, &values, &functions].iter().all(|n| n.is_empty()) && options.is_empty() {
         return TokenStream::new();
     }
-    let (lints, name) = (&decl.lints, &decl.name);
-    // The compiler is silent on items of macros: these are the user's by the spans of all their tokens.
-    let fields = params
-        .iter()
-        .map(|param| quote_spanned! { param.span()=> #param: () });
-    let fields: Vec<TokenStream> = fields.collect();
-    // Fields of the mechanism that nothing reads.
-    let mechanism = (!fields.is_empty()).then(|| {
-        quote_spanned! { name.span()=>
-            #[allow(non_snake_case, non_camel_case_types)]
-            struct #name { #(#fields),* }
-            const _: #name = #name { #(#fields),* };
-        }
+    let lints = &decl.lints;
+    let mechanism = (!params.is_empty()).then(|| unread(&decl.name, &params));
+    let starts = options.iter().map(|(start, options)| {
+        let start = unread(start, options);
+        // A start may have the name of the mechanism, or of what a `let` declares.
+        quote! { const _: () = { #start }; }
     });
     let values = values.iter().map(|value| {
         quote_spanned! { value.span()=> #[allow(non_upper_case_globals)] const #value: () = (); }
@@ -39,8 +34,23 @@ pub(super) fn unused(decl: &Declaration, model: &Model) -> TokenStream {
         #lints
         const _: () = {
             #mechanism
+            #(#starts)*
             #(#values)*
             #(#functions)*
         };
+    }
+}
+
+/// A type called `name` with `fields` that nothing reads. The compiler is silent on items of macros: this is the user's by the spans of all
+/// its tokens.
+fn unread(name: &Ident, fields: &[&Ident]) -> TokenStream {
+    let fields = fields
+        .iter()
+        .map(|field| quote_spanned! { field.span()=> #field: () });
+    let fields: Vec<TokenStream> = fields.collect();
+    quote_spanned! { name.span()=>
+        #[allow(non_snake_case, non_camel_case_types)]
+        struct #name { #(#fields),* }
+        const _: #name = #name { #(#fields),* };
     }
 }

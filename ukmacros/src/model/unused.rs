@@ -1,7 +1,7 @@
-//! What is declared under `params` or by `let`, and named nowhere.
+//! What is declared under `params`, by `let` or as an option of a start, and named nowhere.
 
 use super::types::Model;
-use crate::parse::{Block, Declaration, Expr, ExprKind, Key, Let, LetValue};
+use crate::parse::{Block, Declaration, Expr, ExprKind, Key, Let, LetValue, Start};
 use proc_macro2::Ident;
 use std::collections::HashSet;
 
@@ -13,6 +13,8 @@ pub(crate) struct Unused<'d> {
     pub(crate) values: Vec<&'d Ident>,
     /// Functions declared by `let`.
     pub(crate) functions: Vec<&'d Ident>,
+    /// Starts with options that none of their guesses uses, and these.
+    pub(crate) options: Vec<(&'d Ident, Vec<&'d Ident>)>,
 }
 
 /// The names that are declared and not used.
@@ -39,7 +41,28 @@ pub(crate) fn unused<'d>(decl: &'d Declaration, model: &Model) -> Unused<'d> {
             list.extend(Some(&binding.key.name).filter(|n| idle(n)));
         });
     }
+    for start in &decl.starts {
+        let guessed = guessed(start);
+        let idle = |name: &&Ident| {
+            let text = name.to_string();
+            !text.starts_with('_') && !guessed.contains(&text)
+        };
+        let options = start.options.iter().map(|option| &option.name);
+        let options: Vec<&Ident> = options.filter(idle).collect();
+        if !options.is_empty() {
+            out.options.push((&start.name, options));
+        }
+    }
     out
+}
+
+/// The names that the guesses of a start use, its options among them.
+fn guessed(start: &Start) -> HashSet<String> {
+    let mut found = Names::default();
+    found.blocks(&start.guesses, |guess| {
+        (guess.keys.iter().collect(), vec![&guess.value])
+    });
+    found.used
 }
 
 /// Whether an expression uses `name`.
@@ -97,16 +120,15 @@ fn used(decl: &Declaration) -> HashSet<String> {
         });
     }
     for start in &decl.starts {
-        let options = start.options.iter();
-        options
-            .clone()
-            .for_each(|option| found.expr(&option.default));
+        for option in &start.options {
+            found.expr(&option.default);
+        }
         start.until.iter().for_each(|until| found.expr(until));
-        found.hidden = options.map(|option| option.name.to_string()).collect();
-        found.blocks(&start.guesses, |guess| {
-            (guess.keys.iter().collect(), vec![&guess.value])
-        });
-        found.hidden.clear();
+        let mut guessed = guessed(start);
+        for option in &start.options {
+            guessed.remove(&option.name.to_string());
+        }
+        found.used.extend(guessed);
     }
     found.used
 }

@@ -136,6 +136,10 @@ fn what_acts_is_energies_and_generalised_forces() {
         &format!("{PLANE} force {{ b.x: -s * t }}"),
     );
     check(
+        &format!("{PLANE} gravity {{ [0, -9.81, 0] }}"),
+        &format!("{PLANE} gravity {{ [0, -9.81] }}"),
+    );
+    check(
         &format!("{PLANE} gravity {{ [0, -9.81] }}"),
         &format!("{PLANE} potential {{ 9.81 * a.y + 3 * 9.81 * b.y }}"),
     );
@@ -318,7 +322,17 @@ cases! {
     point_of_a_number: "coords { x } mass { x: 1 } output { o = «x».at([1, 0]) }" => "`at` is of a body, found a number";
     spatial_joint_in_the_plane: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «hinge»(ground.at([0, 0]), a.at([0, 0]), [0, 0, 1]) }" => "`hinge` joins spatial bodies: `hinge(p, q, u, [w])`; these are in the plane";
     arguments_of_a_joint: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rod»(ground.at([0, 0]), a.at([0, 0])) }" => "it is written `rod(p, q, l)`, found 2 arguments";
+    rod_of_no_length: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: rod(ground.at([0, 0]), a.at([0, 0]), «0.0») }" => "`l` of `rod(p, q, l)` must not be zero; what keeps two points together is `pin(p, q)`";
+    rod_of_no_length_in_space: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: rod(ground.at([0, 0, 0]), a.at([0, 0, 0]), «0») }" => "what keeps two points together is `ball(p, q)`";
+    rod_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: rod(ground.at([0, 0]), a.at([0, 0]), «[1, 0]») }" => "`l` of `rod(p, q, l)` is a number, found a vector of 2";
     direction_zero: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: slot(ground.at([0, 0]), a.at([0, 0]), «[0, 0]») }" => "`d` of `slot(p, q, d)` is a direction; it must not be zero";
+    unknown_joint_twice: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])), d: pim(ground.at([0, 0]), a.at([1, 0])) }" => "unknown function `pim`; did you mean `pin`?";
+    no_joint_of_a_like_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «revolute»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `revolute`; joints are `ball`, `cylinder`, `disc`";
+    joint_in_error_with_reactions: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])) } output { f = norm(reaction(c)), x = reaction(c.x), m = moment(c) }" => "unknown function `pim`; did you mean `pin`?";
+    joint_twice: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a.at([1, 0]), b.at([0, 0])), «d»: pin(a.at([1, 0]), b.at([0, 0])) }" => "constraint `d` is the same equation as `c`; remove one";
+    component_twice: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { c: [x, y] = [sin(z), cos(z)]  «d»: [x, z] = [sin(z), t] }" => "constraint `d[0]` is the same equation as `c[0]`; remove one";
+    field_of_an_unknown_body: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = «amr».x, p = amr.angle }" => "unknown name `amr`; did you mean `arm`?";
+    field_of_a_struct: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = other.«x» }" => "no fields here";
     function_as_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { c: «norm([x, y])» }" => "a constraint is an equation: `lhs = rhs`";
     velocity_in_a_joint: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «rolls(a.at([0, 0, 0]), [0, 0, 1], 1)» }" => "move the constraint under `nonholonomic`";
     joint_that_acts: "bodies { planar a { mass: 1, inertia: 1 } } forces { «pin»(ground.at([0, 0]), a.at([0, 0])) }" => "`pin` is a joint; it stands under `holonomic`";
@@ -332,6 +346,8 @@ cases! {
     gravity_without_bodies: "coords { x } mass { x: 1 } «gravity» { [0, -9.81] }" => "`gravity` is the weight of `bodies`, and there are none";
     gravity_of_a_place: "bodies { planar a { mass: 1, inertia: 1 } } gravity { [0, -«a».x] }" => "gravity is one vector for all places";
     gravity_in_space: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } gravity { «[0, -1]» }" => "expected a vector of 3, found a vector of 2: `a` is spatial";
+    gravity_across_the_plane: "params { g = 9.81 } bodies { planar a { mass: 1, inertia: 1 } } gravity { [0, 0, «-g»] }" => "planar bodies move along x and y: no weight of theirs acts along z; write `[0, -g]` where y points up";
+    gravity_of_a_name_across_the_plane: "let w = [0, 0, -9.81]; bodies { planar a { mass: 1, inertia: 1 } } gravity { «w» }" => "planar bodies move along x and y";
     gravity_of_a_number: "bodies { planar a { mass: 1, inertia: 1 } } gravity { «-9.81» }" => "expected a vector of 2 or 3, found a number";
     mass_that_changes: "bodies { planar a { mass: 1 + «t», inertia: 1 } }" => "what a body consists of does not change";
     negative_inertia: "params { j = -1.0 } bodies { planar a { mass: 1, inertia: «j» } }" => "the inertia of a body must not be negative";

@@ -176,6 +176,18 @@ fn what_parts_declare_is_not_unused() {
     assert_eq!(told("#[ukcore(part)]"), [false, false, true]);
 }
 
+/// An option that no guess uses is told in its start, whatever another start, or the rest of the declaration, calls so.
+#[test]
+fn options_of_a_start_that_no_guess_uses_are_told() {
+    let source = "pub P { coords { x } mass { x: 1 } let f = |spare| 2 * spare; force { x: f(t) } start go(from = 0.3, spare = 2.0, _kept = 1.0) { x = from } \
+         start stay(spare = 1.0) { x near spare } }";
+    let (code, errors) = expand(source);
+    assert!(errors.is_empty());
+    let code = code.to_string();
+    assert!(code.contains("struct go { spare : () }"), "{code}");
+    assert!(!code.contains("struct stay"));
+}
+
 /// A declaration that is no part says so to the whole, which tells the remedy, and no more.
 #[test]
 fn what_is_no_part_is_told() {

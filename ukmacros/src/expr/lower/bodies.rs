@@ -6,7 +6,7 @@
 
 use super::array::{Value, describe, sum_of_products};
 use super::{Env, Lowering, Place};
-use crate::diag::{Loc, suggest};
+use crate::diag::{Loc, nearest, suggest};
 use crate::expr::diff::Derivative;
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id, Symbol};
@@ -451,6 +451,15 @@ impl<'m> Lowering<'m> {
         declared || text == "ground" || env.args.iter().any(|(n, _)| *n == text)
     }
 
+    /// Whether what has fields is called nearly so.
+    fn is_like_owner(&self, name: &Ident) -> bool {
+        let owners = self.model.names.iter().filter_map(|(owner, what)| {
+            let fields = matches!(what, Name::Body(_) | Name::Joint | Name::Part);
+            fields.then_some(owner.as_str())
+        });
+        nearest(&name.to_string(), owners).is_some()
+    }
+
     /// `body.angle`.
     pub(super) fn field(&mut self, base: &Expr, name: &Ident, env: &Env<'m>) -> Value {
         if let Some(value) = self.of_joint(base, name, env) {
@@ -458,7 +467,7 @@ impl<'m> Lowering<'m> {
         }
         let value = match &base.kind {
             // Nothing declared here, perhaps a struct of Rust.
-            ExprKind::Name(base) if !self.is_known(base, env) => None,
+            ExprKind::Name(base) if !self.is_known(base, env) && !self.is_like_owner(base) => None,
             _ => Some(self.argument(base, env)),
         };
         // The ground is a plane, or a space, where a point of it is given.

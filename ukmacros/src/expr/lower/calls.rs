@@ -1,7 +1,7 @@
 //! Functions: those of the table, of vectors, and of the declaration.
 
 use super::array::Value;
-use super::parts::PARTS;
+use super::parts::{PARTS, joints};
 use super::vectors::OPERATIONS;
 use super::{Binding, Env, Lowering, Place};
 use crate::diag::{Diagnostics, suggest};
@@ -164,7 +164,10 @@ impl<'m> Lowering<'m> {
             return self.error_once(name, message);
         }
         let list = vocabulary().collect::<Vec<_>>().join(", ");
-        let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
+        let mut remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
+        if matches!(env.place, Place::Holonomic | Place::Nonholonomic) {
+            remedy = format!("joints are {}; {remedy}", joints());
+        }
         let end = suggest(&text, self.functions(), &remedy);
         self.error_once(name, format!("unknown function `{text}`{end}"))
     }

@@ -8,7 +8,7 @@ use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::{Id, Symbol};
 use crate::model::{Scope, Variable};
-use crate::parse::{Body, Declaration, Expr};
+use crate::parse::{Body, Declaration, Expr, ExprKind};
 use proc_macro2::Ident;
 use ukunits::Dimension;
 
@@ -146,8 +146,13 @@ impl<'m> Lowering<'m> {
     fn gravity(&mut self, decl: &Declaration, top: &Scope<'m>) -> Option<(Value, Loc)> {
         let section = decl.gravity.as_ref()?;
         let mut terms = Vec::new();
-        let mut loc: Option<Loc> = None;
+        let (mut loc, mut third): (Option<Loc>, Option<Loc>) = (None, None);
         top.unroll(&section.blocks, self.diag, &mut |e: &Expr, scope| {
+            if let ExprKind::Vector(entries) = &e.kind
+                && let [_, _, z] = &entries[..]
+            {
+                third = Some(z.loc);
+            }
             loc = Some(loc.map_or(e.loc, |l| l.to(e.loc)));
             self.chain(e, 1.0, &Env::new(scope, Place::Gravity), &mut terms);
         });
@@ -163,6 +168,15 @@ impl<'m> Lowering<'m> {
         if !matches!(value.shape(), [2 | 3]) {
             let found = describe(value.shape());
             self.error(loc, format!("expected a vector of 2 or 3, found {found}"));
+            return None;
+        }
+        if let [_, _, z] = value.entries()
+            && !self.graph.is_zero(*z)
+            && self.model.body_kinds.iter().all(|body| !body.spatial)
+        {
+            let message = "planar bodies move along x and y: no weight of theirs acts along z; write `[0, -g]` where y points up, and no \
+                 `gravity` where the plane lies level";
+            self.error(third.unwrap_or(loc), message);
             return None;
         }
         self.expect_all(&value, Dimension::ACCELERATION, "an acceleration", loc);

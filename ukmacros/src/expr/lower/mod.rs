@@ -572,7 +572,10 @@ impl<'m> Lowering<'m> {
             });
             self.measure_row(phi, kind);
         }
-        self.know(whole, first, total.shape(), rows, load);
+        // What is in error has no reaction that could be judged.
+        if !total.is_error() {
+            self.know(whole, first, total.shape(), rows, load);
+        }
     }
 
     /// Whether `e` applies a joint, or a function of the declaration, which may be one.

@@ -13,7 +13,7 @@ use crate::expr::graph::{Id, Symbol};
 use crate::model::Scope;
 use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use ukunits::Dimension;
 
@@ -27,6 +27,8 @@ enum Takes {
     /// A direction: a vector that is not zero.
     Direction,
     Number,
+    /// A number that is not zero.
+    Length,
     /// A vector in space; in the plane a number.
     Moment,
     /// A vector.
@@ -87,7 +89,7 @@ parts! {
         "inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)",
     ], "normal rolling");
     "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"], "");
-    "rod" Both (p: Point, q: Point, l: Number) Rows(&["sq(q - p) - sq(l)"], "");
+    "rod" Both (p: Point, q: Point, l: Length) Rows(&["sq(q - p) - sq(l)"], "");
     "ball" Space (p: Point, q: Point) Rows(&["q - p"], "x y z");
     "hinge" Space (p: Point, q: Point, u: Direction, w: Direction = "u")
         Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"], "x y z tilt0 tilt1");
@@ -180,6 +182,13 @@ pub(super) struct Joint {
 fn acting() -> String {
     let parts = PARTS.iter().filter(|part| !part.joins());
     parts.map(Part::usage).collect::<Vec<_>>().join(", ")
+}
+
+/// The names of all joints.
+pub(super) fn joints() -> String {
+    let parts = PARTS.iter().filter(|part| part.joins());
+    let names: BTreeSet<String> = parts.map(|part| format!("`{}`", part.name)).collect();
+    names.into_iter().collect::<Vec<_>>().join(", ")
 }
 
 impl<'m> Lowering<'m> {
@@ -459,7 +468,7 @@ impl<'m> Lowering<'m> {
             Takes::Direction | Takes::Force => {
                 (value.shape() == [dimension], describe(&[dimension]))
             }
-            Takes::Number => (
+            Takes::Number | Takes::Length => (
                 value.shape().is_empty() && !matches!(value, Value::Body(_)),
                 describe(&[]),
             ),
@@ -491,6 +500,16 @@ impl<'m> Lowering<'m> {
                     part.usage()
                 ),
             );
+            return false;
+        }
+        if takes == Takes::Length && zero {
+            // Its row would have no derivative where the points meet, as they must.
+            let joint = if flat { "pin" } else { "ball" };
+            let message = format!(
+                "`{arg}` of {} must not be zero; what keeps two points together is `{joint}(p, q)`",
+                part.usage()
+            );
+            self.error(e.loc, message);
             return false;
         }
         true

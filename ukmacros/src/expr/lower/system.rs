@@ -99,12 +99,17 @@ pub(crate) struct ConstraintRef {
 impl ConstraintRef {
     /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
-        let whole = indexed(&self.shown, &self.indices);
+        let whole = self.whole();
         match (&self.unit_of, self.row) {
             (Some(body), _) => format!("{body}.unit"),
             (None, Some(row)) => format!("{whole}.{row}"),
             (None, None) => indexed(whole, &self.components),
         }
+    }
+
+    /// The constraint, output or integral that it is a row or component of: `knee`, `joint[2]`.
+    pub(crate) fn whole(&self) -> String {
+        indexed(&self.shown, &self.indices)
     }
 }
 
