@@ -404,6 +404,7 @@ fn modes_of_one(mechanism: &impl Mechanism, one: &[Mode], copies: usize) {
             let copy =
                 |name: &str| name[name.find('[').unwrap()..name.find(']').unwrap()].to_owned();
             let mut moving: Vec<String> = moving.map(|(name, _)| copy(name)).collect();
+            moving.sort();
             moving.dedup();
             assert_eq!(moving.len(), 1, "{mode:?}");
             alone.extend(moving);

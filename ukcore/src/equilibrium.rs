@@ -182,9 +182,13 @@ impl Place {
     /// Newton's step; downhill, where forces have a potential. `None` for a stiffness that is not finite.
     fn step(&self, stiffness: &DMatrix<f64>) -> Option<DVector<f64>> {
         let largest = stiffness.amax();
-        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
+        // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
+        let sizes = self.state.q.iter().zip(self.units.iter());
+        let most = sizes.fold(0.0, |s: f64, (q, unit)| s.max(q.abs().max(1.0) / unit));
+        let least = (self.force.amax() / most).max(f64::MIN_POSITIVE);
         let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
-            true => largest.max(f64::MIN_POSITIVE),
+            true => largest.max(least),
             false => curvature.abs(),
         };
         let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {

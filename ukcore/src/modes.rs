@@ -24,6 +24,9 @@ const REST: f64 = 1e-9;
 /// What rounding may have changed in the linearised motion, as a part of it.
 const ROUNDING: f64 = 1e-14;
 
+/// Eigenvalues that differ by less, as a part of the linearised motion, are one: rounding leaves little of shapes of their own.
+const TOGETHER: f64 = 1e-12;
+
 /// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
@@ -73,6 +76,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     }
     let rounding = ROUNDING * flow.norm();
     let reduced = tangent.tr_mul(&(flow * &tangent));
+    let together = TOGETHER * reduced.norm();
     let transposed = reduced.transpose();
     let mut shapes: Vec<Found> = Vec::new();
     for value in &eigenvalues(&reduced).ok_or_else(unfound)? {
@@ -95,7 +99,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         }
         let shape = |part: &DVector<Complex<f64>>| positions(&tangent, part);
         let lasts = growth != 0.0 || frequency != 0.0;
-        let same = |one: &Found| lasts && (one.value - value).norm() * known <= rounding;
+        let same = |one: &Found| lasts && (one.value - value).norm() <= together;
         let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
         let mut own = shape(&part);
         if !among.is_empty() {
@@ -106,6 +110,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
             value: *value,
             growth,
             frequency,
+            own: own.icamax(),
             shape: own,
         });
     }
@@ -124,6 +129,8 @@ struct Found {
     frequency: f64,
     /// Deviations of coordinates, measured by the root of their inertia.
     shape: DVector<Complex<f64>>,
+    /// The coordinate that other shapes of its eigenvalue leave where it is.
+    own: usize,
 }
 
 impl Found {
@@ -152,7 +159,7 @@ fn positions(tangent: &DMatrix<f64>, part: &DVector<Complex<f64>>) -> DVector<Co
 /// A deviation is none beside the others below this part of it.
 const NEW: f64 = 1e-6;
 
-/// Modes of one eigenvalue have no shapes of their own: any sums of them are some. Those are taken in which the leader of each stays where
+/// Modes of one eigenvalue have no shapes of their own: any sums of them are some. Those are taken in which a coordinate of each stays where
 /// it is in the others, so that of several copies of a mechanism each moves alone. Returns `other` so, and makes the shapes `among` so; `None`
 /// where `other` is none beside these, as where an eigenvalue has fewer shapes than it counts.
 fn share_out(
@@ -162,10 +169,9 @@ fn share_out(
 ) -> Option<DVector<Complex<f64>>> {
     let size = other.norm();
     for k in among {
-        let shape = &shapes[*k].shape;
-        let leader = shape.icamax();
-        other -= shape * (other[leader] / shape[leader]);
-        other[leader] = Complex::new(0.0, 0.0);
+        let Found { shape, own, .. } = &shapes[*k];
+        other -= shape * (other[*own] / shape[*own]);
+        other[*own] = Complex::new(0.0, 0.0);
     }
     if other.norm() <= NEW * size {
         return None;
@@ -391,7 +397,12 @@ fn eigenvector_from(
 ) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
     // Beside the eigenvalue, by what rounding leaves unknown of it or a little more, so that nothing is divided by 0.
-    let mut aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
+    // Farther off where eigenvalues coincide, or the one that rounding puts nearest is the only one that is found.
+    let (share, turns) = match number {
+        0 => (8.0 * f64::EPSILON, 3),
+        _ => (0.1 * TOGETHER, 6),
+    };
+    let mut aside = share * matrix.norm().max(f64::MIN_POSITIVE);
     let solver = loop {
         let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
         for k in 0..n {
@@ -407,7 +418,7 @@ fn eigenvector_from(
     let mut vector = DVector::from_fn(n, |k, _| {
         Complex::new(1.0 + ((1 + number) as f64 * k as f64).sin(), 0.0)
     });
-    for _ in 0..3 {
+    for _ in 0..turns {
         if let Some(next) = solver.solve(&vector) {
             vector = next.unscale(next.norm());
         }
