@@ -144,6 +144,7 @@ fn ukcore() {
             "pinv",
             "lu",
             "equations",
+            "measure",
             "metric",
             "dense",
             "noise",

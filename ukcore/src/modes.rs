@@ -75,14 +75,21 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         return Ok(Vec::new());
     }
     let rounding = ROUNDING * flow.norm();
+    // Of what conserves its energy and rests squares of eigenvalues are real: the smaller part is rounding.
+    let spec = mech.spec();
+    let rests = state.v.iter().all(|v| *v == 0.0);
+    let swings = rests && spec.structure.conservative && spec.holonomic == spec.m();
     let reduced = tangent.tr_mul(&(flow * &tangent));
     let together = TOGETHER * reduced.norm();
     let transposed = reduced.transpose();
     let mut shapes: Vec<Found> = Vec::new();
     for value in &eigenvalues(&reduced).ok_or_else(unfound)? {
         let part = eigenvector(&reduced, *value);
-        // It changes by as much as the matrix does, over the product of its left and its right eigenvector.
+        // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
+        // as is left of the equation, where eigenvalues coincide.
         let known = eigenvector(&transposed, value.conj()).dotc(&part).norm();
+        let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * *value;
+        let rounding = rounding.max(left.norm());
         let told = |x: f64| {
             if x.abs() * known <= rounding {
                 0.0
@@ -92,26 +99,28 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         };
         let (growth, frequency) = match told(value.norm()) {
             0.0 => (0.0, 0.0),
+            _ if swings && value.im.abs() >= value.re.abs() => (0.0, told(value.im)),
+            _ if swings => (told(value.re), 0.0),
             _ => (told(value.re), told(value.im)),
         };
         if frequency < 0.0 {
             continue;
         }
-        let shape = |part: &DVector<Complex<f64>>| positions(&tangent, part);
+        let again = |number| positions(&tangent, &eigenvector_from(&reduced, *value, number));
         let lasts = growth != 0.0 || frequency != 0.0;
         let same = |one: &Found| lasts && (one.value - value).norm() <= together;
         let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
-        let mut own = shape(&part);
-        if !among.is_empty() {
-            let other = shape(&eigenvector_from(&reduced, *value, among.len()));
-            own = share_out(&mut shapes, &among, other).unwrap_or(own);
-        }
+        let other = match among.len() {
+            0 => None,
+            number => share_out(&mut shapes, &among, again(number)),
+        };
+        let shape = other.unwrap_or_else(|| positions(&tangent, &part));
         shapes.push(Found {
             value: *value,
             growth,
             frequency,
-            own: own.icamax(),
-            shape: own,
+            own: shape.icamax(),
+            shape,
         });
     }
     let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(&mech, &units)).collect();
@@ -232,8 +241,8 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
 /// itself, however far it is carried by the others.
 const LIGHTEST: f64 = 1e-12;
 
-/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is no
-/// inertia at all.
+/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is
+/// no inertia at all.
 pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
     let heaviest = mass.diagonal().max();
     mass.diagonal().map(|m| match m > 0.0 {
