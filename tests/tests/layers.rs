@@ -140,6 +140,7 @@ fn ukcore() {
             "spec",
             "plan",
             "mechanism",
+            "spectrum",
             "pinv",
             "lu",
             "equations",

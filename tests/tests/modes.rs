@@ -293,6 +293,183 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
 }
 
 ukcore::multibody! {
+    /// 1 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
+    pub One {
+        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
+        bodies {
+            for i in 0..1 {
+                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+            }
+        }
+        gravity { [0, -g] }
+        tree {
+            for i in 0..1 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
+        }
+        forces {
+            for i in 0..1 {
+                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
+                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// 2 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
+    pub Two {
+        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
+        bodies {
+            for i in 0..2 {
+                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+            }
+        }
+        gravity { [0, -g] }
+        tree {
+            for i in 0..2 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
+        }
+        forces {
+            for i in 0..2 {
+                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
+                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// 4 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
+    pub Four {
+        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
+        bodies {
+            for i in 0..4 {
+                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+            }
+        }
+        gravity { [0, -g] }
+        tree {
+            for i in 0..4 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
+        }
+        forces {
+            for i in 0..4 {
+                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
+                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// 8 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
+    pub Eight {
+        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
+        bodies {
+            for i in 0..8 {
+                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+            }
+        }
+        gravity { [0, -g] }
+        tree {
+            for i in 0..8 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
+        }
+        forces {
+            for i in 0..8 {
+                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
+                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
+            }
+        }
+    }
+}
+
+/// The modes of `copies` of a mechanism are those of one, each so often, and in each of these another copy moves alone.
+fn modes_of_one(mechanism: &impl Mechanism, one: &[Mode], copies: usize) {
+    let mechanism = ukcore::mechanism::Prepared::from(mechanism);
+    let guess = rest(&vec![0.5; 2 * copies]);
+    let place = ukcore::equilibrium(&mechanism, &guess, &[]).unwrap();
+    assert_eq!(place.stability, ukcore::Stability::Stable);
+    let found = modes(&mechanism, &place.state).unwrap();
+    assert_eq!(found.len(), copies * one.len());
+    let size = one.iter().map(Mode::size).fold(0.0, f64::max);
+    let names = mechanism.spec().coords;
+    for (group, one) in found.chunks(copies).zip(one) {
+        let mut alone: Vec<String> = Vec::new();
+        for mode in group {
+            let off = (mode.growth - one.growth).hypot(mode.frequency - one.frequency);
+            assert!(off <= 1e-12 * size, "{mode:?}: {one:?}");
+            let moving = names.iter().zip(&mode.shape);
+            let moving = moving.filter(|(_, [re, im])| re.hypot(*im) > 1e-7);
+            let copy =
+                |name: &str| name[name.find('[').unwrap()..name.find(']').unwrap()].to_owned();
+            let mut moving: Vec<String> = moving.map(|(name, _)| copy(name)).collect();
+            moving.sort();
+            moving.dedup();
+            assert_eq!(moving.len(), 1, "{mode:?}");
+            alone.extend(moving);
+        }
+        alone.sort();
+        alone.dedup();
+        assert_eq!(alone.len(), copies, "{alone:?}");
+    }
+}
+
+#[test]
+fn copies_have_the_modes_of_one() {
+    for c in [0.001, 0.002, 0.0] {
+        let one = One {
+            c,
+            ..One::default()
+        };
+        let place = ukcore::equilibrium(&one, &rest(&[0.5; 2]), &[]).unwrap();
+        let found = modes(&one, &place.state).unwrap();
+        assert!(found.iter().all(|mode| (mode.growth < 0.0) == (c > 0.0)));
+        let [first, second] = [place.state.q[0], place.state.q[0] + place.state.q[1]];
+        let (inertia, weight) = (one.m * one.l * one.l, one.m * one.g * one.l);
+        let coupled = 0.5 * inertia * (first - second).cos();
+        for mode in &found {
+            // det(λ² M + λ C + K), in the angles of both bars against the ground.
+            let rate = nalgebra::Complex::new(mode.growth, mode.frequency);
+            let joint = rate * c + one.k;
+            let upper =
+                rate * rate * (inertia * 4.0 / 3.0) + joint * 2.0 - 1.5 * weight * first.sin();
+            let lower = rate * rate * (inertia / 3.0) + joint - 0.5 * weight * second.sin();
+            let beside = rate * rate * coupled - joint;
+            let size = upper.norm() * lower.norm() + beside.norm_sqr();
+            assert!(
+                (upper * lower - beside * beside).norm() <= 1e-9 * size,
+                "{mode:?}"
+            );
+        }
+        modes_of_one(
+            &Two {
+                c,
+                ..Two::default()
+            },
+            &found,
+            2,
+        );
+        modes_of_one(
+            &Four {
+                c,
+                ..Four::default()
+            },
+            &found,
+            4,
+        );
+        modes_of_one(
+            &Eight {
+                c,
+                ..Eight::default()
+            },
+            &found,
+            8,
+        );
+    }
+}
+
+ukcore::multibody! {
     /// Points on threads of one length in space, that hang aslant of the axes.
     pub Threads {
         const N: usize = 3;

@@ -279,3 +279,33 @@ fn a_mechanism_rests_in_the_branch_in_which_it_starts() {
     }
     assert!(signs.iter().all(|count| *count > 30), "{signs:?}");
 }
+
+ukcore::multibody! {
+    /// A bead on a hoop; y points up.
+    pub Bead {
+        params { m = 0.3, l = 0.7, g = 9.81 }
+        coords { x, y }
+        mass { x: m, y: m }
+        potential { m * g * y }
+        holonomic { hoop: sq(x) + sq(y) = sq(l) }
+    }
+}
+
+/// However near the top a search begins: it ends there, not stable, or at the bottom, stable.
+#[test]
+fn beside_the_top_of_a_hoop_a_bead_rests_at_the_top_or_falls() {
+    let bead = Bead::default();
+    for exponent in 0..=16 {
+        let aside = bead.l * 10_f64.powi(-exponent);
+        let found = ukcore::equilibrium(&bead, &guess(&[aside, bead.l]), &[])
+            .unwrap_or_else(|error| panic!("{aside}: {error}"));
+        let y = found.state.q[1] / bead.l;
+        let expected = if y > 0.0 {
+            (1.0, ukcore::Stability::Unstable)
+        } else {
+            (-1.0, ukcore::Stability::Stable)
+        };
+        assert!((y - expected.0).abs() < 1e-12, "{aside}: {y}");
+        assert_eq!(found.stability, expected.1, "{aside}");
+    }
+}

@@ -14,6 +14,7 @@ use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
 use crate::random::Random;
 use crate::scan::{largest, largest_difference};
+use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
 
 /// A state put together from a guess, and how else it could have been.
@@ -235,7 +236,8 @@ impl Ways<'_> {
                 row *= *weight;
             }
             let wanted = DVector::from_fn(n, |j, _| self.weights[j] * (self.guess.q[j] - q[j]));
-            let Ok(shares) = weighed.svd(true, true).solve(&wanted, 1e-12) else {
+            let shares = singular(weighed, true, true).map(|svd| svd.solve(&wanted, 1e-12));
+            let Some(Ok(shares)) = shares else {
                 return;
             };
             let step = ways * shares;
@@ -261,17 +263,10 @@ impl Ways<'_> {
 
     /// Keeps `q`, unless it is known, but for whole turns; of places that differ by these the nearest.
     fn enter(&mut self, q: Vec<f64>) {
-        let angles = self.mech.spec().structure.angles;
         let size = largest(&q).max(largest(&self.guess.q));
         let distance = self.distance(&q);
-        let same = |way: &&mut Way| {
-            let mut turned = way.q.clone();
-            for j in angles {
-                let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
-                turned[*j] += turns * std::f64::consts::TAU;
-            }
-            largest_difference(&turned, &q) <= 1e-3 * size
-        };
+        let angles = self.mech.spec().structure.angles;
+        let same = |way: &&mut Way| same_place(angles, size, &way.q, &q);
         match self.found.iter_mut().find(same) {
             Some(way) if distance < way.distance => *way = Way { q, distance },
             Some(_) => {}
@@ -279,7 +274,17 @@ impl Ways<'_> {
         }
     }
 
-    fn assembled(&self, state: State, alternatives: Vec<State>) -> Assembled {
+    fn assembled(&self, state: State, others: Vec<State>) -> Assembled {
+        // Near a position in which branches meet, searches that end in different steps tell of one place several times.
+        let angles = self.mech.spec().structure.angles;
+        let mut alternatives: Vec<State> = Vec::new();
+        for other in others {
+            let size = largest(&other.q).max(largest(&self.guess.q));
+            let same = |known: &State| same_place(angles, size, &known.q, &other.q);
+            if !same(&state) && !alternatives.iter().any(same) {
+                alternatives.push(other);
+            }
+        }
         let size = largest(&self.guess.q).max(1.0);
         let change = |j: &usize| state.q[*j] - self.guess.q[*j];
         let mut moved: Vec<usize> = (0..state.q.len()).collect();
@@ -294,4 +299,14 @@ impl Ways<'_> {
             state,
         }
     }
+}
+
+/// Whether `q` is where `known` is, but for whole turns of `angles`, beside coordinates of this `size`.
+fn same_place(angles: &[usize], size: f64, known: &[f64], q: &[f64]) -> bool {
+    let mut turned = known.to_vec();
+    for j in angles {
+        let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
+        turned[*j] += turns * std::f64::consts::TAU;
+    }
+    largest_difference(&turned, q) <= 1e-3 * size
 }

@@ -1,11 +1,12 @@
 //! From rank facts to the modeller's words.
 
-use nalgebra::Matrix3;
+use nalgebra::{DMatrix, Matrix3};
 
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::scan::largest;
 use crate::spec::Spec;
+use crate::spectrum::symmetric;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
 /// zero in exact arithmetic are below 1e-12 (rounding over the smallest pivot taken as regular); true ones are seldom below 1e-3.
@@ -73,7 +74,11 @@ pub(crate) fn inertias(mech: &Prepared) -> Result<(), Error> {
 /// Whether a rigid body can have this mass and this inertia about its centre of mass.
 fn possible(body: &str, mass: f64, inertia: &Matrix3<f64>) -> Result<(), Error> {
     let refuse = |what, reason: String| Err(Error::InvalidSetting { what, reason });
-    let mut moments: [f64; 3] = inertia.symmetric_eigenvalues().into();
+    let numbers = DMatrix::from_column_slice(3, 3, inertia.as_slice());
+    let Some(moments) = symmetric(numbers).map(|eigen| eigen.eigenvalues) else {
+        return refuse("inertia", format!("of `{body}` is not finite"));
+    };
+    let mut moments = [moments[0], moments[1], moments[2]];
     moments.sort_by(f64::total_cmp);
     let [least, middle, most] = moments;
     // A flat body's moments add up but for rounding.

@@ -13,6 +13,7 @@ use crate::nearby::nearby;
 use crate::random::Random;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
+use crate::spectrum::singular;
 
 /// States near one that are looked at, to tell what holds at it alone.
 const NEIGHBOURS: usize = 3;
@@ -225,7 +226,9 @@ pub(crate) fn margin(rows: &DMatrix<f64>, free: &[usize]) -> (f64, Vec<usize>) {
     if free.len() < 2 {
         return (1.0, Vec::new());
     }
-    let svd = rows.select_rows(free).svd(true, false);
+    let Some(svd) = singular(rows.select_rows(free), true, false) else {
+        return (f64::NAN, Vec::new());
+    };
     let least = svd.singular_values.imin();
     let shares = svd.u.map(|u| u.column(least).abs());
     let most = shares.as_ref().map_or(0.0, DVector::amax);
@@ -280,7 +283,9 @@ pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     let mut implied: Vec<usize> = kept[..m - rank].iter().map(|(_, i)| *i).collect();
     implied.sort_unstable();
     let free: Vec<usize> = (0..m).filter(|i| !implied.contains(i)).collect();
-    let factored = (!free.is_empty()).then(|| rows.select_rows(&free).transpose().svd(true, true));
+    let factored = (!free.is_empty())
+        .then(|| singular(rows.select_rows(&free).transpose(), true, true))
+        .flatten();
     let relation = |row: usize| {
         let wanted: DVector<f64> = rows.row(row).transpose();
         let shares = factored

@@ -14,6 +14,7 @@ use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
+use crate::spectrum;
 
 /// A rest position.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +86,7 @@ pub fn equilibrium(
     let mut damping = 0.0_f64;
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
-        let step = here.step(&stiffness);
+        let step = here.step(&stiffness).ok_or_else(unfound)?;
         if here.is_balanced() || step.amax() <= NOWHERE * search.size {
             let stability = search.stability(&here.state, &stiffness)?;
             return Ok(Equilibrium {
@@ -118,6 +119,13 @@ pub fn equilibrium(
     })
 }
 
+fn unfound() -> Error {
+    Error::InvalidSetting {
+        what: "guess",
+        reason: "leads to where the stiffness is not finite; give another one".into(),
+    }
+}
+
 struct Search {
     mech: Prepared,
     solver: Solver,
@@ -147,21 +155,40 @@ impl Place {
         self.force.amax() <= BALANCED * self.parts
     }
 
-    /// Less potential energy where there is one and more than rounding changes, else less force.
+    /// Less potential energy where there is one: by its value, by the work on the way where rounding hides it, as near a place where the
+    /// potential is greatest. Else less force.
     fn improves_on(&self, before: &Place) -> bool {
         let (now, then) = (self.force.norm(), before.force.norm());
         match (self.potential, before.potential) {
             (Some(v), Some(w)) if (v - w).abs() > 1e-12 * (v.abs() + w.abs()) => v < w,
+            (Some(_), Some(_)) if self.work_since(before) > 0.0 => true,
             _ => now < then || self.is_balanced(),
         }
     }
 
-    /// Newton's step; downhill, where forces have a potential.
-    fn step(&self, stiffness: &DMatrix<f64>) -> DVector<f64> {
+    /// The way from one place to the other, in units of the coordinates.
+    fn chord_from(&self, before: &Place) -> DVector<f64> {
+        let pairs = self.state.q.iter().zip(&before.state.q);
+        let chord = pairs.zip(self.units.iter());
+        let chord = chord.map(|((to, from), unit)| (to - from) / unit);
+        DVector::from_iterator(self.units.len(), chord)
+    }
+
+    /// The work of the forces on the way between two places near each other.
+    fn work_since(&self, before: &Place) -> f64 {
+        0.5 * self.chord_from(before).dot(&(&self.push + &before.push))
+    }
+
+    /// Newton's step; downhill, where forces have a potential. `None` for a stiffness that is not finite.
+    fn step(&self, stiffness: &DMatrix<f64>) -> Option<DVector<f64>> {
         let largest = stiffness.amax();
-        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
+        // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
+        let sizes = self.state.q.iter().zip(self.units.iter());
+        let most = sizes.fold(0.0, |s: f64, (q, unit)| s.max(q.abs().max(1.0) / unit));
+        let least = (self.force.amax() / most).max(f64::MIN_POSITIVE);
         let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
-            true => largest.max(f64::MIN_POSITIVE),
+            true => largest.max(least),
             false => curvature.abs(),
         };
         let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
@@ -170,14 +197,13 @@ impl Place {
             shares
         };
         if self.potential.is_none() {
-            let svd = stiffness.clone().svd(true, true);
-            if let (Some(u), Some(v)) = (&svd.u, &svd.v_t) {
-                return v.tr_mul(&shared(u.tr_mul(&self.force), &svd.singular_values));
-            }
+            let svd = spectrum::singular(stiffness.clone(), true, true)?;
+            let (u, v) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
+            return Some(v.tr_mul(&shared(u.tr_mul(&self.force), &svd.singular_values)));
         }
-        let eigen = symmetric(stiffness).symmetric_eigen();
+        let eigen = spectrum::symmetric(symmetric(stiffness))?;
         let shares = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
-        eigen.eigenvectors * shares
+        Some(eigen.eigenvectors * shares)
     }
 }
 
@@ -242,9 +268,7 @@ impl Search {
 
     /// Whether the constraints lead from one place to the other by `step`.
     fn follows(&self, from: &Place, step: &DVector<f64>, to: &Place) -> bool {
-        let pairs = to.state.q.iter().zip(&from.state.q).zip(from.units.iter());
-        let chord = pairs.map(|((to, from), unit)| (to - from) / unit);
-        let chord = DVector::from_iterator(from.units.len(), chord);
+        let chord = to.chord_from(from);
         let off = (&chord - &from.basis * from.basis.tr_mul(&chord)).norm();
         let rounding = NOWHERE * self.size;
         off <= BENT * chord.norm() + rounding && chord.norm() <= LONGER * step.norm() + rounding
@@ -285,8 +309,8 @@ impl Search {
             }
         }
         let largest = stiffness.amax();
-        let least = symmetric(stiffness).symmetric_eigenvalues();
-        let least = least.iter().copied().fold(f64::INFINITY, f64::min);
+        let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
+        let least = curved.eigenvalues.min();
         let flat = largest
             * if self.held.is_empty() {
                 FLAT

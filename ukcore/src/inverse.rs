@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, measure, null_space, units};
 use crate::solver::{Solver, SolverOptions};
+use crate::spectrum::singular;
 
 /// What a motor does at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +16,8 @@ pub struct Effort {
     /// The row of the constraint, or the coordinate.
     pub name: &'static str,
     /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place, on the second body, in
-    /// [`Spec::multiplier_unit`](crate::spec::Spec::multiplier_unit). Of a coordinate the generalised force on it.
+    /// [`Spec::multiplier_unit`](crate::spec::Spec::multiplier_unit); of a `rod`, whose row is that of squares, half the force over the
+    /// length. Of a coordinate the generalised force on it.
     pub effort: f64,
     /// The power that it puts into the mechanism: the effort times the rate at which it moves.
     pub power: f64,
@@ -196,8 +198,9 @@ fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> D
     if free.is_empty() || acting.is_empty() {
         return none;
     }
-    let svd = (acting * free).transpose().svd(true, true);
-    svd.solve(wanted, IDLE * strongest).unwrap_or(none)
+    let svd = singular((acting * free).transpose(), true, true);
+    svd.and_then(|svd| svd.solve(wanted, IDLE * strongest).ok())
+        .unwrap_or(none)
 }
 
 impl Prepared {

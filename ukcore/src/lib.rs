@@ -68,6 +68,7 @@ mod scan;
 pub mod simulate;
 pub mod solver;
 pub mod spec;
+mod spectrum;
 mod start;
 mod trajectory;
 mod verify;

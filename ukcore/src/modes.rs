@@ -14,6 +14,7 @@ use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{Solver, SolverOptions};
+use crate::spectrum::eigenvalues;
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
 pub(crate) const INDEPENDENT: f64 = 1e-9;
@@ -22,6 +23,9 @@ pub(crate) const INDEPENDENT: f64 = 1e-9;
 const REST: f64 = 1e-9;
 /// What rounding may have changed in the linearised motion, as a part of it.
 const ROUNDING: f64 = 1e-14;
+
+/// Eigenvalues that differ by less, as a part of the linearised motion, are one: rounding leaves little of shapes of their own.
+const TOGETHER: f64 = 1e-12;
 
 /// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +66,6 @@ impl Mode {
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
-    let n = mech.spec().n();
     let units = units(&mass_matrix(&mech, state));
     let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
@@ -77,9 +80,10 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let rests = state.v.iter().all(|v| *v == 0.0);
     let swings = rests && spec.structure.conservative && spec.holonomic == spec.m();
     let reduced = tangent.tr_mul(&(flow * &tangent));
+    let together = TOGETHER * reduced.norm();
     let transposed = reduced.transpose();
-    let mut modes: Vec<Mode> = Vec::new();
-    for value in reduced.complex_eigenvalues().iter() {
+    let mut shapes: Vec<Found> = Vec::new();
+    for value in &eigenvalues(&reduced).ok_or_else(unfound)? {
         let part = eigenvector(&reduced, *value);
         // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
         // as is left of the equation, where eigenvalues coincide.
@@ -102,25 +106,100 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         if frequency < 0.0 {
             continue;
         }
-        let shape = tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part;
-        let leader = shape.icamax();
-        let moved = shape.zip_map(&units, |x, unit| x * unit);
-        let relative = |x: &Complex<f64>| {
-            let share = x / moved[leader];
-            [share.re, share.im]
+        let again = |number| positions(&tangent, &eigenvector_from(&reduced, *value, number));
+        let lasts = growth != 0.0 || frequency != 0.0;
+        let same = |one: &Found| lasts && (one.value - value).norm() <= together;
+        let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
+        let other = match among.len() {
+            0 => None,
+            number => share_out(&mut shapes, &among, again(number)),
         };
-        modes.push(Mode {
+        let shape = other.unwrap_or_else(|| positions(&tangent, &part));
+        shapes.push(Found {
+            value: *value,
             growth,
             frequency,
-            shape: moved.iter().map(relative).collect(),
-            leader: mech.spec().coords[leader],
+            own: shape.icamax(),
+            shape,
         });
     }
+    let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(&mech, &units)).collect();
     modes.sort_by(|a, b| {
         let by_frequency = a.frequency.total_cmp(&b.frequency);
         by_frequency.then(a.growth.total_cmp(&b.growth))
     });
     Ok(modes)
+}
+
+/// A mode on the way.
+struct Found {
+    value: Complex<f64>,
+    growth: f64,
+    frequency: f64,
+    /// Deviations of coordinates, measured by the root of their inertia.
+    shape: DVector<Complex<f64>>,
+    /// The coordinate that other shapes of its eigenvalue leave where it is.
+    own: usize,
+}
+
+impl Found {
+    fn mode(&self, mech: &Prepared, units: &DVector<f64>) -> Mode {
+        let leader = self.shape.icamax();
+        let moved = self.shape.zip_map(units, |x, unit| x * unit);
+        let relative = |x: &Complex<f64>| {
+            let share = x / moved[leader];
+            [share.re, share.im]
+        };
+        Mode {
+            growth: self.growth,
+            frequency: self.frequency,
+            shape: moved.iter().map(relative).collect(),
+            leader: mech.spec().coords[leader],
+        }
+    }
+}
+
+/// The deviations of coordinates in a deviation by `tangent`.
+fn positions(tangent: &DMatrix<f64>, part: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+    let n = tangent.nrows() / 2;
+    tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part
+}
+
+/// A deviation is none beside the others below this part of it.
+const NEW: f64 = 1e-6;
+
+/// Modes of one eigenvalue have no shapes of their own: any sums of them are some. Those are taken in which a coordinate of each stays where
+/// it is in the others, so that of several copies of a mechanism each moves alone. Returns `other` so, and makes the shapes `among` so; `None`
+/// where `other` is none beside these, as where an eigenvalue has fewer shapes than it counts.
+fn share_out(
+    shapes: &mut [Found],
+    among: &[usize],
+    mut other: DVector<Complex<f64>>,
+) -> Option<DVector<Complex<f64>>> {
+    let size = other.norm();
+    for k in among {
+        let Found { shape, own, .. } = &shapes[*k];
+        other -= shape * (other[*own] / shape[*own]);
+        other[*own] = Complex::new(0.0, 0.0);
+    }
+    if other.norm() <= NEW * size {
+        return None;
+    }
+    let leader = other.icamax();
+    for k in among {
+        let shape = &mut shapes[*k].shape;
+        let share = shape[leader] / other[leader];
+        *shape -= &other * share;
+        shape[leader] = Complex::new(0.0, 0.0);
+    }
+    Some(other)
+}
+
+fn unfound() -> Error {
+    Error::InvalidSetting {
+        what: "state",
+        reason: "has a linearised motion whose eigenvalues were not found".into(),
+    }
 }
 
 /// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
@@ -316,9 +395,23 @@ fn tangent(
 
 /// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
 fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
+    eigenvector_from(matrix, value, 0)
+}
+
+/// [`eigenvector`] from the beginning of this number: of an eigenvalue that counts several times each leads to another one.
+fn eigenvector_from(
+    matrix: &DMatrix<f64>,
+    value: Complex<f64>,
+    number: usize,
+) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
     // Beside the eigenvalue, by what rounding leaves unknown of it or a little more, so that nothing is divided by 0.
-    let mut aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
+    // Farther off where eigenvalues coincide, or the one that rounding puts nearest is the only one that is found.
+    let (share, turns) = match number {
+        0 => (8.0 * f64::EPSILON, 3),
+        _ => (0.1 * TOGETHER, 6),
+    };
+    let mut aside = share * matrix.norm().max(f64::MIN_POSITIVE);
     let solver = loop {
         let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
         for k in 0..n {
@@ -331,8 +424,10 @@ fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f6
         aside *= 2.0;
     };
     // Not at a right angle to any eigenvector that has a name.
-    let mut vector = DVector::from_fn(n, |k, _| Complex::new(1.0 + (k as f64).sin(), 0.0));
-    for _ in 0..3 {
+    let mut vector = DVector::from_fn(n, |k, _| {
+        Complex::new(1.0 + ((1 + number) as f64 * k as f64).sin(), 0.0)
+    });
+    for _ in 0..turns {
         if let Some(next) = solver.solve(&vector) {
             vector = next.unscale(next.norm());
         }

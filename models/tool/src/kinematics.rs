@@ -199,6 +199,13 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
                 );
                 return Err(Failure::Usage(message));
             }
+            if steps < 0.0 {
+                let message = format!(
+                    "`{}`: steps of {step} lead from {from} away from {to}; give the step the other sign",
+                    drive.name
+                );
+                return Err(Failure::Usage(message));
+            }
             if !(1.0 - 1e-9..MOST).contains(&steps) {
                 let message = format!(
                     "`{}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}",

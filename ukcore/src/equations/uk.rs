@@ -3,14 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::pinv::pseudo_inverse;
+use crate::spectrum::symmetric;
 
 /// M^½ and M^−½ by the eigenvalues of M; `None` if M is not positive definite.
 #[must_use]
 pub fn square_roots(mass: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
-    if !mass.iter().all(|x| x.is_finite()) {
-        return None;
-    }
-    let eigen = mass.clone().symmetric_eigen();
+    let eigen = symmetric(mass.clone())?;
     if !eigen.eigenvalues.iter().all(|x| *x > 0.0) {
         return None;
     }
