@@ -171,7 +171,7 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     let State { t, q, v } = state;
     let mut acceleration = vec![0.0; q.len()];
     if !mech.spec().structure.straight_line
-        || Accepted::WHOLE.has(mech.acceleration(*t, q, v, &mut acceleration))
+        || Accepted::INDEPENDENT.has(mech.acceleration(*t, q, v, &mut acceleration))
     {
         return None;
     }

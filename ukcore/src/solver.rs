@@ -30,6 +30,7 @@ use crate::spec::Spec;
 
 mod agreement;
 mod dropping;
+mod light;
 mod rank;
 mod refine;
 mod settings;
@@ -88,6 +89,7 @@ pub struct Solver {
     /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
     known: refine::Known,
+    light: light::Light,
     dropping: Dropping,
 }
 
@@ -137,6 +139,7 @@ impl Solver {
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
+            light: light::Light::new(n, m),
             dropping: Dropping::new(),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
@@ -227,7 +230,7 @@ impl Solver {
         let fallbacks = self.work.fallbacks;
         let result = self.rank_revealing(t, q, v, out);
         let rank = self.dense.cod.rank();
-        let confirmed = result.is_ok() && self.dropping.confirm(rank, self.m);
+        let confirmed = result.is_ok() && (self.dropping.confirm(rank, self.m) | self.is_even());
         self.work.fallbacks = fallbacks + usize::from(!confirmed);
         result
     }
@@ -362,6 +365,7 @@ impl Solver {
     pub fn mechanism_mut(&mut self) -> &mut Prepared {
         self.known.valid = false;
         self.dropping.forget();
+        self.light.forget();
         &mut self.mechanism
     }
 

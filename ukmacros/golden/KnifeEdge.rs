@@ -31,10 +31,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 1 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 22 | 32 | 4 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 4 | 13 | 1 | 0 | 2 | 5 |
+/// | straight line, nothing hoisted | 4 | 14 | 1 | 0 | 2 | 8 |
 /// | straight line, as emitted | 4 | 11 | 1 | 0 | 1 | 1 |
 /// | correction of a projection | 2 | 6 | 1 | 0 | 1 | 1 |
-/// | once for a set of parameters | 0 | 3 | 0 | 0 | 1 | 4 |
+/// | once for a set of parameters | 0 | 4 | 0 | 0 | 1 | 7 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -266,11 +266,11 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 4,
-                        multiplications: 13,
+                        multiplications: 14,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 2,
-                        selections: 5,
+                        selections: 8,
                     },
                     acceleration: ukcore::Operations {
                         additions: 4,
@@ -290,11 +290,11 @@ const _: () = {
                     },
                     prepare: ukcore::Operations {
                         additions: 0,
-                        multiplications: 3,
+                        multiplications: 4,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 4,
+                        selections: 7,
                     },
                 },
             },
@@ -336,12 +336,14 @@ const _: () = {
                     constants: &[
                         1.7976931348623157e308,
                         2.2250738585072014e-308,
+                        0.0001,
                         1.0,
+                        0.75,
                         0.0,
                     ],
-                    code: b"130 bytes",
+                    code: b"174 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 10];
+                let mut registers = [S::from_f64(0.0); 12];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -362,7 +364,17 @@ const _: () = {
             let safe_th = S::select_le(
                 i,
                 lit(1.7976931348623157e308),
-                S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
+                S::select_le(
+                    lit(2.2250738585072014e-308),
+                    i,
+                    S::select_le(
+                        lit(0.0001) * S::select_le(i, m, m, i),
+                        S::select_le(m, i, m, i),
+                        lit(1.0),
+                        lit(0.75),
+                    ),
+                    lit(0.0),
+                ),
                 lit(0.0),
             );
             let safe_x = S::select_le(
