@@ -54,6 +54,7 @@ mod stiff;
 mod streaming;
 mod switches;
 mod tapes;
+mod tied;
 mod tree;
 mod turned;
 mod vanishing;
