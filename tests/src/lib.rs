@@ -1,4 +1,4 @@
-//! What the tests share: random states, all models in turn, and an independent dense oracle.
+//! What tests share: random states, and an independent dense oracle.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -11,55 +11,7 @@ mod random;
 pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 
-use models::{Entry, Model, StartOptions, Visitor};
-use ukcore::State;
-
-/// Runs `check` on every model of the registry.
-///
-/// # Panics
-/// Where `check` does.
-pub fn every_model(check: impl Fn(&Entry)) {
-    let models = models::entries();
-    assert!(!models.is_empty(), "the registry has no model");
-    models.iter().for_each(check);
-}
-
-/// The default start of a model with its default parameters.
-///
-/// # Panics
-/// If there is none.
-#[must_use]
-pub fn start(model: &Entry) -> State {
-    let name = model.starts.first().map_or("", |start| start.name);
-    let start = model.start(&model.mechanism, name, &StartOptions::new());
-    start.expect("the default start exists")
-}
-
-/// A test of any model that needs its type, and is compiled for each.
-pub trait Check {
-    /// Tests the model `M`; panics where it fails.
-    fn check<M: Model>(&self);
-}
-
-/// Runs `check` on the type of every model of the registry.
-///
-/// # Panics
-/// Where `check` does.
-pub fn every_type(check: &impl Check) {
-    struct Run<'a, C>(&'a C);
-    impl<C: Check> Visitor for Run<'_, C> {
-        type Output = ();
-        fn visit<M: Model>(self) {
-            self.0.check::<M>();
-        }
-    }
-    let mut visited = 0;
-    for id in models::ids() {
-        models::visit(id, Run(check)).expect("ids() names registered models");
-        visited += 1;
-    }
-    assert!(visited > 0, "the registry has no model");
-}
+use ukcore::model::{Entry, StartOptions};
 
 /// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.
 ///

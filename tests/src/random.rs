@@ -1,7 +1,7 @@
 //! Random numbers and states, the same in every run.
 
-use models::Model;
 use ukcore::manifold::Projector;
+use ukcore::model::Model;
 use ukcore::{Prepared, State};
 
 /// SplitMix64 (Steele, Lea & Flood 2014).

@@ -3,7 +3,7 @@
 use crate::linkage::FourBar;
 use tests::assert_close;
 use ukcore::model::StartOptions;
-use ukcore::{Error, Mechanism, State, branches};
+use ukcore::{Error, Mechanism, State, assemble, assemble_with_alternatives, branches};
 
 ukcore::multibody! {
     /// Two rods of length 1 whose ends are 1 apart: their pin lies above the line of the ends, or below.
@@ -24,12 +24,24 @@ fn guess(x: f64, y: f64) -> State {
     }
 }
 
+fn linkage_guess() -> State {
+    State::guess::<FourBar>(&[("bar[0].angle", 1.0), ("bar[1].angle", 0.3)]).unwrap()
+}
+
 #[test]
 fn the_nearest_is_taken_and_as_near_ones_are_told() {
     let elbow = Elbow::default();
     let height = 0.75_f64.sqrt();
     for (y, others) in [(0.5, 0), (-0.5, 0), (0.1, 1), (-0.1, 1), (1e-9, 1)] {
         let found = branches(&elbow, &guess(0.5, y), &[]).unwrap();
+        assert_eq!(
+            assemble_with_alternatives(&elbow, &guess(0.5, y), &[]),
+            Ok(found.clone())
+        );
+        assert_eq!(
+            assemble(&elbow, guess(0.5, y), &[]),
+            Ok(found.state.clone())
+        );
         assert_close("x", found.state.q[0], 0.5, 1e-14);
         assert_close("y", found.state.q[1], height.copysign(y), 1e-14);
         assert_eq!(found.alternatives.len(), others, "{y}");
@@ -50,6 +62,8 @@ fn starts_that_leave_it_open_are_told() {
     let above = elbow.branches("above", &StartOptions::new()).unwrap();
     assert!(above.alternatives.is_empty() && above.state.q[1] > 0.8);
     let unsaid = elbow.branches("unsaid", &StartOptions::new()).unwrap();
+    let told = elbow.start_with_alternatives("unsaid", &StartOptions::new());
+    assert_eq!(told.as_ref(), Ok(&unsaid));
     assert_eq!((unsaid.alternatives.len(), unsaid.moved.len()), (1, 0));
 
     let linkage = FourBar::default().prepared();
@@ -68,6 +82,11 @@ fn starts_that_leave_it_open_are_told() {
         let names: Vec<&str> = found.moved.iter().map(|(name, _)| *name).collect();
         assert_eq!(names.len(), 2, "{names:?}");
     }
+    // Where a coordinate stays free other ways are not looked for, and what moved is told.
+    let free = assemble_with_alternatives(&FourBar::default(), &linkage_guess(), &[]).unwrap();
+    let state = assemble(&FourBar::default(), linkage_guess(), &[]).unwrap();
+    assert_eq!(free.state, state);
+    assert!(free.alternatives.is_empty() && !free.moved.is_empty());
     let crank = linkage.branches("crank", &StartOptions::new()).unwrap();
     assert_eq!(crank.alternatives.len(), 1);
     assert!(crank.moved.is_empty());

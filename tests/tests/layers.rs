@@ -143,6 +143,7 @@ fn ukcore() {
             "pinv",
             "lu",
             "equations",
+            "measure",
             "metric",
             "dense",
             "noise",

@@ -291,3 +291,51 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// Points on threads of one length in space, that hang aslant of the axes.
+    pub Threads {
+        const N: usize = 3;
+        params { l = 0.7, m = 1.3, gx = 3.1, gy = -5.7, gz = 7.3, c = 0.0 }
+        coords { x[N], y[N], z[N] }
+        mass { for i in 0..N { x[i]: m, y[i]: m, z[i]: m } }
+        potential { for i in 0..N { -m * (gx * x[i] + gy * y[i] + gz * z[i]) } }
+        dissipation { 0.5 * c * sq(dot(x[0])) }
+        holonomic { for i in 0..N { thread[i]: sq(x[i]) + sq(y[i]) + sq(z[i]) = sq(l) } }
+    }
+}
+
+/// Six frequencies √(g/l) coincide: none grows, in whatever direction they hang; nor where one thread loses energy.
+#[test]
+fn coinciding_frequencies_do_not_grow() {
+    let mut random = tests::Random::new(11);
+    for case in 0..60 {
+        let g = [(); 3].map(|()| 10.0 * random.signed());
+        let size = g.iter().fold(0.0_f64, |sum, x| sum.hypot(*x));
+        let [gx, gy, gz] = g;
+        let c = if case % 2 == 0 { 0.0 } else { 0.4 };
+        let threads = Threads {
+            gx,
+            gy,
+            gz,
+            c,
+            ..Threads::default()
+        };
+        let q = g.map(|x| [threads.l * x / size; Threads::N]).concat();
+        let found = ukcore::equilibrium(&threads, &rest(&q), &[]).expect("it hangs");
+        assert_eq!(found.stability, ukcore::Stability::Stable, "{g:?}, {c}");
+        let found = modes(&threads, &found.state).expect("at rest");
+        assert_eq!(found.len(), 2 * Threads::N);
+        let lasting = found.iter().filter(|mode| mode.growth == 0.0);
+        // The damped point swings at a right angle to the damper, too.
+        assert_eq!(
+            lasting.count(),
+            if c > 0.0 { 5 } else { 6 },
+            "{g:?}: {found:?}"
+        );
+        let frequency = (size / threads.l).sqrt();
+        for mode in found.iter().filter(|mode| mode.growth == 0.0) {
+            assert_close("frequency", mode.frequency, frequency, 1e-11 * frequency);
+        }
+    }
+}

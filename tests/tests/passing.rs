@@ -136,7 +136,8 @@ fn hunt_for_branches() {
 }
 
 /// Motions that hurt: rates of near misses from stages of far too long steps, stages that come near by chance, passages that miss the
-/// accuracy asked for by a hair, a crank that hovers beside its dead centre, samples on it that no step was planned for, an end soon behind.
+/// accuracy asked for by a hair, a crank that hovers beside its dead centre, samples on it that no step was planned for, an end soon
+/// behind.
 #[test]
 fn what_the_hunt_has_found() {
     let mut outcomes = Outcomes::default();

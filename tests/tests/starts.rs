@@ -236,7 +236,7 @@ ukcore::multibody! {
 fn velocities_of_which_a_start_speaks_stay_where_they_may() {
     let coupled = Coupled::default();
     for a in [0.0, 1e-13, -1e-11, 1e-9, -1e-8, 1e-7, -1e-6, 1e-5, 0.7] {
-        for (w, tolerance) in [(2.0, 1e-4), (-3.0, 1e-6), (1e5, 1e-8), (-0.1, 1e-5)] {
+        for (w, tolerance) in [(2.0, 1e-4), (-3.0, 1e-6), (1e5, 1e-6), (-0.1, 1e-10)] {
             let start = coupled.start("parallel", &[("a", a), ("w", w)].into());
             let start = start.unwrap_or_else(|e| panic!("{a}, {w}: {e}"));
             for i in Coupled::CRANK_ANGLE {

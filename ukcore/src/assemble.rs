@@ -8,7 +8,8 @@
 //! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
 //! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
 //! mechanism together; the nearest in that metric is taken, over all that depends on the choice. Where interval arithmetic shows that none
-//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess.
+//! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess, and more
+//! where the signs of det ∂φ/∂q at the solutions tell that one is missing.
 
 use crate::diagnose;
 use crate::error::Error;
@@ -127,8 +128,9 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members, a body's all its coordinates.
 ///
 /// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
-/// looked for: a far guess has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one that
-/// the search from the guess leads to. `branches` tells of others that are as near.
+/// looked for: a far guess has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one
+/// that the search from the guess leads to. [`assemble_with_alternatives`](crate::assemble_with_alternatives) tells of others that are as
+/// near, and how far which coordinate was moved.
 ///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in
@@ -198,8 +200,8 @@ impl Held {
         }
     }
 
-    /// `v` with the rates of quaternions at `q` in place of angular velocities: ė = ½ ω e of ω in axes of the ground, ½ e ω of it in those of
-    /// the body.
+    /// `v` with the rates of quaternions at `q` in place of angular velocities: ė = ½ ω e of ω in axes of the ground, ½ e ω of it in those
+    /// of the body.
     fn rates(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut rates = v.to_vec();
         for group in self.turning.chunks_exact(4) {

@@ -23,7 +23,8 @@ pub struct Assembled {
     pub state: State,
     /// The coordinates that differ from what the guess tells of them and by how much, the largest difference in terms of inertia first.
     pub moved: Vec<(&'static str, f64)>,
-    /// The nearest states of other branches that are as near, nearest first: what the guess tells does not decide between them.
+    /// The nearest states of other branches that were found as near, within one and a half times the distance, nearest first: what the
+    /// guess tells does not decide between them.
     pub alternatives: Vec<State>,
 }
 
@@ -37,6 +38,22 @@ const UNTOLD: f64 = 1e-6;
 const NONE: f64 = 1e-7;
 /// Steps towards the guess within a branch.
 const STEPS: usize = 60;
+
+/// What [`assemble`](crate::assemble()) finds, with what moved and, where no coordinate stays free, the other ways to put the mechanism
+/// together that are as near. These are those that assembly compares, so that it costs next to nothing where interval arithmetic shows that
+/// there are none, as near a good sketch. Where coordinates stay free no others are looked for: [`branches`](branches()) does that.
+///
+/// # Errors
+/// What [`assemble`](crate::assemble()) reports.
+pub fn assemble_with_alternatives(
+    mechanism: impl Into<Prepared>,
+    guess: &State,
+    hold: &[&str],
+) -> Result<Assembled, Error> {
+    let mech: Prepared = mechanism.into();
+    let held = Held::both(held(mech.spec(), hold)?);
+    near(&mech, guess, &held, Look::AtParts)
+}
 
 /// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved
 /// and the other ways that are as near. Where coordinates stay free it searches two dozen times, so it is for looking rather than for
@@ -52,10 +69,23 @@ pub fn branches(
 ) -> Result<Assembled, Error> {
     let mech: Prepared = mechanism.into();
     let held = Held::both(held(mech.spec(), hold)?);
-    branches_of(&mech, guess, &held)
+    near(&mech, guess, &held, Look::Everywhere)
 }
 
 impl Prepared {
+    /// [`Prepared::start`] as by [`assemble_with_alternatives`]: coordinates of which the start says nothing do not count.
+    ///
+    /// # Errors
+    /// What [`Prepared::start`] reports.
+    pub fn start_with_alternatives(
+        &self,
+        name: &str,
+        options: &StartOptions,
+    ) -> Result<Assembled, Error> {
+        let Said { guess, held } = self.said(name, options)?;
+        near(self, &guess, &held, Look::AtParts)
+    }
+
     /// [`branches`](branches()) of the declared start called `name` with `options`, near what it says: coordinates of which it says nothing
     /// do not count.
     ///
@@ -63,12 +93,21 @@ impl Prepared {
     /// What [`Prepared::start`] reports.
     pub fn branches(&self, name: &str, options: &StartOptions) -> Result<Assembled, Error> {
         let Said { guess, held } = self.said(name, options)?;
-        branches_of(self, &guess, &held)
+        near(self, &guess, &held, Look::Everywhere)
     }
 }
 
-/// [`branches`] near a guess, with coordinates held by their positions.
-fn branches_of(mech: &Prepared, guess: &State, held: &Held) -> Result<Assembled, Error> {
+/// Where other ways to put a mechanism together are looked for.
+#[derive(Clone, Copy, PartialEq)]
+enum Look {
+    /// Where assembly compares them.
+    AtParts,
+    /// All around the guess, too, where coordinates stay free.
+    Everywhere,
+}
+
+/// The ways near a guess, with coordinates held by their positions.
+fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assembled, Error> {
     guess.check(mech)?;
     diagnose::inertias(mech)?;
     let units = units(&mass_matrix(mech, guess));
@@ -87,11 +126,11 @@ fn branches_of(mech: &Prepared, guess: &State, held: &Held) -> Result<Assembled,
         units,
         found: Vec::new(),
     };
-    let states = ways.near().into_iter();
+    let states = ways.near(look).into_iter();
     let states = states.filter_map(|q| Search::velocities(mech, guess, held, q).ok());
     let mut states: Vec<State> = states.collect();
     if states.is_empty() {
-        // It says why.
+        // It finds one where coordinates stay free, or says why there is none.
         states.push(assembled(mech, guess, held.clone())?);
     }
     let state = states.remove(0);
@@ -116,8 +155,8 @@ struct Ways<'a> {
 }
 
 impl Ways<'_> {
-    /// The nearest, then those that are as near.
-    fn near(&mut self) -> Vec<Vec<f64>> {
+    /// The nearest, then those that are as near; none where coordinates stay free and they are not to be looked for.
+    fn near(&mut self, look: Look) -> Vec<Vec<f64>> {
         let (mech, guess) = (self.mech, self.guess);
         let none = NONE * largest(&guess.q).max(1.0) * self.weights.amax();
         let mut search = Search::new(mech, guess, &self.held.positions);
@@ -125,6 +164,9 @@ impl Ways<'_> {
         let at = At::new(mech, Level::Position, guess.t, &guess.v);
         if let Some(ways) = search.ways(&at, &guess.q, (AS_NEAR, none)) {
             return ways;
+        }
+        if look == Look::AtParts {
+            return Vec::new();
         }
         self.seek();
         self.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));

@@ -10,6 +10,7 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
+use crate::measure::Measure;
 use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
@@ -49,9 +50,10 @@ impl<'a> Rows<'a> {
         self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
     }
 
-    /// max |A_ci|.
-    pub(crate) fn largest(self, c: usize) -> f64 {
-        self.row(c).fold(0.0, |s, a| s.max(a.abs()))
+    /// max |A_ci| sᵢ, of coordinates with the [scale](Measure::scale) s.
+    pub(crate) fn largest(self, c: usize, scale: &[f64]) -> f64 {
+        let entries = self.row(c).zip(scale).map(|(a, s)| (a * s).abs());
+        entries.fold(0.0, f64::max)
     }
 }
 
@@ -84,10 +86,13 @@ pub(crate) struct Dense {
     /// [`Solve::turned`](crate::spec::Solve::turned).
     regular: [&'static [usize]; 2],
     pub(crate) metric: Metric,
+    pub(crate) measure: Measure,
+    /// What the entries of columns of B are multiplied by for those of A, measured.
+    weights: Vec<f64>,
     pub(crate) cod: Decomposition,
     /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
     pub(crate) row_scale: Vec<f64>,
-    /// What the largest entry of each row of A is measured by; 0 for a row that is measured by itself.
+    /// What the largest entry of each row of A, measured, is divided by; by itself where this is 0.
     pub(crate) sizes: Vec<f64>,
     significance: Vec<f64>,
     /// N, n × (n − rank).
@@ -122,6 +127,8 @@ impl Dense {
             n,
             regular: [spec.structure.solve.regular, spec.structure.solve.turned],
             metric: Metric::new(n, spec.structure.mass_diagonal),
+            measure: Measure::new(spec),
+            weights: vec![1.0; n],
             cod: Decomposition::new(m, n),
             row_scale: vec![0.0; m],
             sizes: vec![0.0; m],
@@ -143,8 +150,9 @@ impl Dense {
     /// Factors M and A, keeping every pivot above `floor`. The rank is then [`Decomposition::rank`] of `cod`; to change it, call
     /// [`Dense::set_rank`], which must be called in any case on the singular route.
     ///
-    /// The significance of a row of A is its largest entry, in A's own units, as a share of what that entry was before the parts
-    /// implied by other rows were taken off: it depends neither on the scaling of constraints nor on that of masses.
+    /// The significance of a row of A is its largest entry, [measured](Measure), as a share of what that was before the parts implied by
+    /// other rows were taken off: it depends neither on units nor on the scaling of constraints, nor on that of masses. The measure is that
+    /// of the state where it was taken last.
     pub(crate) fn factor(
         &mut self,
         route: Route,
@@ -160,6 +168,7 @@ impl Dense {
                 a.stride,
                 a.rows,
                 self.regular.iter().copied().flatten().copied(),
+                &self.measure.scale,
             )?,
         }
         let columns = self.cod.load(a.rows);
@@ -181,11 +190,14 @@ impl Dense {
                 let norm = dot(column, column).sqrt();
                 column.iter_mut().for_each(|x| *x /= norm);
                 self.row_scale[c] = (largest * norm).recip();
-                self.significance[c] = largest * norm / a.largest(c);
+                self.significance[c] = largest * norm / a.largest(c, &self.measure.scale);
             }
         }
+        let pairs = self.metric.root.iter().zip(&self.measure.scale);
+        let weights = self.weights.iter_mut().zip(pairs);
+        weights.for_each(|(weight, (root, scale))| *weight = root * scale);
         self.cod
-            .factor(&self.metric.root, &self.significance[..a.rows], floor);
+            .factor(&self.weights, &self.significance[..a.rows], floor);
         Ok(())
     }
 

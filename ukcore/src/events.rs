@@ -6,13 +6,6 @@ use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::zero::{PARTS, locate};
 
-/// Parts into which each step is divided in the search for sign changes, ends included.
-///
-/// Two zeros of one event function less than an eighth of a step apart can cancel and be missed. An interpolant of a
-/// step that passed error control at order 8 (or 5) seldom has more than one or two extrema within it, so eight parts leave a
-/// margin; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search finer.
-pub const EVENT_PARTS: usize = PARTS;
-
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
@@ -32,6 +25,10 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// A zero counts where g changes its sign, or arrives at exactly 0; a g that starts at exactly 0 is not an event. Its time is
 /// located to rounding on the interpolant of the step, at projected states.
 /// Where g is not a number, the run fails with an error that says so.
+///
+/// Signs are compared at the ends of each eighth of a step: two zeros of g nearer to each other can cancel and be missed. An interpolant of
+/// a step that passed error control at order 8 (or 5) seldom has more than one or two extrema within it; where that is not enough,
+/// [`max_step`](crate::Simulation::max_step) makes the search finer.
 ///
 /// ```
 /// use ukcore::simulate::{Direction, Event};
@@ -169,11 +166,11 @@ impl Watch {
         }
         current.copy_from_slice(accepted);
         let mut a = t_old;
-        for part in 1..=EVENT_PARTS {
-            let b = if part == EVENT_PARTS {
+        for part in 1..=PARTS {
+            let b = if part == PARTS {
                 t
             } else {
-                t_old + (t - t_old) * (part as f64 / EVENT_PARTS as f64)
+                t_old + (t - t_old) * (part as f64 / PARTS as f64)
             };
             states.state(b, state);
             let found = crossings.len();

@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::{Functions, Scalar, Tape, tape};
+use crate::scalar::Scalar;
+use crate::scalar::tape::player;
 
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
@@ -135,16 +136,7 @@ macro_rules! rising {
 
 impl Scalar for Interval {
     const TAPED: bool = true;
-    // Not generic, so that it is compiled in this crate.
-    fn play(
-        tape: &Tape,
-        registers: &mut [Self],
-        inputs: &[&[Self]],
-        functions: Functions<'_, Self>,
-        slices: &mut [&mut [Self]],
-    ) -> Self {
-        tape::play(tape, registers, inputs, functions, slices)
-    }
+    player!(play Interval);
     fn from_f64(x: f64) -> Self {
         Interval::between(x, x)
     }

@@ -33,6 +33,9 @@ pub struct Posture {
 /// An acceleration, or a force on a free displacement, that is off by this part of what adds up to it is not what is asked for.
 const MET: f64 = 1e-6;
 
+/// A force on a free displacement below this part of what adds up to it is rounding.
+const NOTHING: f64 = 1e-14;
+
 /// A combination of motors that acts on free displacements by less than this part of their largest coefficient moves nothing.
 const IDLE: f64 = 1e-9;
 
@@ -159,7 +162,13 @@ pub fn inverse_forces(
     for (k, j) in driven.iter().enumerate() {
         acting[(k, *j)] = units[*j];
     }
-    let wanted = free.tr_mul(&missing);
+    let mut wanted = free.tr_mul(&missing);
+    let rounding = NOTHING * sizes.sum();
+    wanted.apply(|force| {
+        if force.abs() <= rounding {
+            *force = 0.0;
+        }
+    });
     let efforts = least(&acting, &free, &wanted);
     let left = &free * (wanted - (&acting * &free).tr_mul(&efforts));
     if left.amax() > MET * sizes.sum() {

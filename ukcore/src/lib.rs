@@ -50,6 +50,7 @@ pub mod lanes;
 mod linearise;
 mod lu;
 pub mod manifold;
+mod measure;
 pub mod mechanism;
 mod metric;
 pub mod model;
@@ -73,7 +74,7 @@ mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
-pub use branches::{Assembled, branches};
+pub use branches::{Assembled, assemble_with_alternatives, branches};
 pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;

@@ -104,6 +104,8 @@ pub struct Correction {
 pub struct Projector {
     mechanism: Prepared,
     manifold: Manifold,
+    /// Whether units are compared: those of the first state are kept.
+    measured: bool,
 }
 
 impl Projector {
@@ -113,6 +115,7 @@ impl Projector {
         let mechanism = mechanism.into();
         Projector {
             manifold: Manifold::new(&mechanism),
+            measured: false,
             mechanism,
         }
     }
@@ -125,8 +128,16 @@ impl Projector {
     /// [`Error::WrongLength`].
     pub fn position(&mut self, t: f64, q: &mut [f64], v: &[f64]) -> Result<Correction, Error> {
         self.check_lengths(q, v)?;
+        self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.project(&at, q)
+    }
+
+    /// Takes what makes coordinates of different units comparable, at the first state.
+    fn measure(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        if !std::mem::replace(&mut self.measured, true) {
+            self.manifold.measure(&self.mechanism, t, q, v);
+        }
     }
 
     /// Minimal change of q̇ in the mass metric with φ̇ = 0 and ψ = 0 (all constraints) to rounding level; nonholonomic ones may be
@@ -136,6 +147,7 @@ impl Projector {
     /// As [`Projector::position`].
     pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
         self.check_lengths(q, v)?;
+        self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
         self.manifold.project(&at, v)
     }
@@ -248,11 +260,26 @@ pub(crate) struct Manifold {
 
 impl Manifold {
     pub(crate) fn new(mechanism: &Prepared) -> Self {
+        let (mut newton, factors) = (Newton::new(mechanism.spec()), Factors::new(mechanism));
+        if !factors.dense.measure.is_one() {
+            newton.acceptance.units = vec![1.0; mechanism.spec().n()];
+        }
         Manifold {
-            newton: Newton::new(mechanism.spec()),
+            newton,
             noise: Noise::new(mechanism),
-            factors: Factors::new(mechanism),
+            factors,
             start: vec![0.0; mechanism.spec().n()],
+        }
+    }
+
+    /// Takes what makes coordinates of different units comparable, from a state.
+    fn measure(&mut self, mech: &Prepared, t: f64, q: &[f64], v: &[f64]) {
+        let units = &mut self.newton.acceptance.units;
+        if !units.is_empty() {
+            let scale = self
+                .factors
+                .measure(mech, t, [q, v], &mut self.newton.jacobian);
+            units.copy_from_slice(scale);
         }
     }
 

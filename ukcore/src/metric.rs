@@ -136,8 +136,9 @@ impl Metric {
     /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets the scale at which its entries of A do not
     /// exceed those of the massive coordinates in any row that has both, so that it neither hides them nor is hidden. Rows a that are
     /// `regular` give coordinates the mass of M + μ aᵀa, which does not vanish where their own does: what is next to nothing there, as
-    /// beside the identity orientation, would have rounding of other rows for large entries. The accelerations do not depend on these
-    /// scales, only their rounding and the rank decisions do.
+    /// beside the identity orientation, would have rounding of other rows for large entries. Coordinates of different units are comparable
+    /// by `measure`, which also gives a scale to coordinates that share no row with a massive one. The accelerations do not depend on these
+    /// scales, only their rounding does.
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
@@ -145,6 +146,7 @@ impl Metric {
         stride: usize,
         rows: usize,
         regular: impl Iterator<Item = usize>,
+        measure: &[f64],
     ) -> Result<(), MassFault> {
         let n = self.n;
         self.kind = Kind::Scales;
@@ -157,9 +159,13 @@ impl Metric {
         }
         for c in regular.filter(|c| *c < rows) {
             let row = || jacobian.iter().skip(c).step_by(stride);
-            let length = row().fold(0.0_f64, |sum, a| sum.hypot(*a));
-            let acts = row().zip(&self.root).filter(|(a, _)| **a != 0.0);
-            let root = acts.fold(0.0_f64, |sum, (_, root)| sum.hypot(*root));
+            let (mut length, mut root) = (0.0_f64, 0.0_f64);
+            for ((a, own), unit) in row().zip(&self.root).zip(measure) {
+                if *a != 0.0 {
+                    length = length.hypot(a * unit);
+                    root = root.hypot(own * unit);
+                }
+            }
             if length > 0.0 {
                 let pairs = self.root.iter_mut().zip(row());
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
@@ -179,7 +185,15 @@ impl Metric {
                     root = root.max(entry / massive);
                 }
             }
-            self.root[j] = if root > 0.0 { root } else { 1.0 };
+            self.root[j] = root;
+        }
+        let units = || self.root.iter().zip(measure);
+        let largest = units().fold(0.0_f64, |most, (root, unit)| most.max(root * unit));
+        let other = if largest > 0.0 { largest } else { 1.0 };
+        for (root, unit) in self.root.iter_mut().zip(measure) {
+            if *root == 0.0 {
+                *root = other / unit;
+            }
         }
         Ok(())
     }
@@ -345,7 +359,14 @@ mod tests {
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
         let no_rows: [f64; 0] = [];
         assert_eq!(
-            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0, std::iter::empty()),
+            full.scale(
+                &[0.0, 1.0, 1.0, 1.0],
+                &no_rows,
+                0,
+                0,
+                std::iter::empty(),
+                &[1.0; 2]
+            ),
             Err(MassFault::Indefinite(0))
         );
     }

@@ -72,13 +72,20 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         return Ok(Vec::new());
     }
     let rounding = ROUNDING * flow.norm();
+    // Of what conserves its energy and rests squares of eigenvalues are real: the smaller part is rounding.
+    let spec = mech.spec();
+    let rests = state.v.iter().all(|v| *v == 0.0);
+    let swings = rests && spec.structure.conservative && spec.holonomic == spec.m();
     let reduced = tangent.tr_mul(&(flow * &tangent));
     let transposed = reduced.transpose();
     let mut modes: Vec<Mode> = Vec::new();
     for value in reduced.complex_eigenvalues().iter() {
         let part = eigenvector(&reduced, *value);
-        // It changes by as much as the matrix does, over the product of its left and its right eigenvector.
+        // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
+        // as is left of the equation, where eigenvalues coincide.
         let known = eigenvector(&transposed, value.conj()).dotc(&part).norm();
+        let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * *value;
+        let rounding = rounding.max(left.norm());
         let told = |x: f64| {
             if x.abs() * known <= rounding {
                 0.0
@@ -88,6 +95,8 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         };
         let (growth, frequency) = match told(value.norm()) {
             0.0 => (0.0, 0.0),
+            _ if swings && value.im.abs() >= value.re.abs() => (0.0, told(value.im)),
+            _ if swings => (told(value.re), 0.0),
             _ => (told(value.re), told(value.im)),
         };
         if frequency < 0.0 {
@@ -153,8 +162,8 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
 /// itself, however far it is carried by the others.
 const LIGHTEST: f64 = 1e-12;
 
-/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is no
-/// inertia at all.
+/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is
+/// no inertia at all.
 pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
     let heaviest = mass.diagonal().max();
     mass.diagonal().map(|m| match m > 0.0 {

@@ -2,7 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::{Dual, Functions, Scalar, Tape, functions, tape};
+use crate::scalar::tape::player;
+use crate::scalar::{Dual, Scalar, functions};
 
 /// A value and the size of its rounding error, in units of ε: that of the inputs, carried on to first order, and one unit of each
 /// intermediate result. (A running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, §3.3.)
@@ -116,16 +117,7 @@ macro_rules! by_slopes {
 
 impl Scalar for Rounded {
     const TAPED: bool = true;
-    // Not generic, so that it is compiled in this crate.
-    fn play(
-        tape: &Tape,
-        registers: &mut [Self],
-        inputs: &[&[Self]],
-        functions: Functions<'_, Self>,
-        slices: &mut [&mut [Self]],
-    ) -> Self {
-        tape::play(tape, registers, inputs, functions, slices)
-    }
+    player!(play Rounded);
     fn from_f64(x: f64) -> Self {
         Rounded::exact(x)
     }

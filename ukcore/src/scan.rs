@@ -55,6 +55,11 @@ impl<S: Scalar> Size<S> {
         }
     }
 
+    /// Of coordinates with this unit, where sizes are in their units.
+    pub(crate) fn by(self, unit: f64) -> S {
+        S::from_f64(unit) * self.even
+    }
+
     /// Of coordinate j. Inertia that vanishes at a place, as that of a quaternion does, makes none larger than all others.
     pub(crate) fn least(self, ease: &[f64], j: usize) -> S {
         match ease.get(j) {
@@ -104,6 +109,16 @@ pub(crate) fn reduce<S: Scalar>(
 pub(crate) fn excess<S: Scalar>(d: &[S], x: &[S], share: S, least: S) -> S {
     let beyond = |d: S, x: S| d.abs() - share * (x.abs() + least);
     reduce(d, x, beyond, |s, x| x.larger(s))
+}
+
+/// The same of coordinates of different `units`, in which `least` is.
+pub(crate) fn excess_by<S: Scalar>(d: &[S], x: &[S], share: S, least: S, units: &[f64]) -> S {
+    let all = d.iter().zip(x).zip(units);
+    let beyond = all.map(|((d, x), unit)| {
+        let unit = S::from_f64(*unit);
+        (d.abs() - share * (x.abs() + least * unit)) / unit
+    });
+    beyond.fold(S::from_f64(0.0), |s, x| x.larger(s))
 }
 
 /// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.

@@ -9,7 +9,7 @@ use crate::manifold::Stabilisation;
 use crate::mechanism::Prepared;
 use crate::solver::{Formula, Solver, SolverOptions};
 
-pub use crate::events::{Direction, EVENT_PARTS, Event, EventHit};
+pub use crate::events::{Direction, Event, EventHit};
 pub use crate::integrate::{Method, PROJECTION_LIMIT};
 pub use crate::trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, Trajectory, Work};
 #[cfg(feature = "ensemble")]

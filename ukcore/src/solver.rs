@@ -3,8 +3,9 @@
 //! # Rank decisions
 //!
 //! The *significance* of a constraint is the largest entry of its row of A, as a share of what it is before the part implied by
-//! the other rows is taken off. It lies between 0 and about 1 and does not depend on how constraints or masses are scaled. A row
-//! is redundant if its significance does not exceed a tolerance:
+//! the other rows is taken off. Entries for coordinates of different units are made comparable by the levers that rows of A have. It
+//! lies between 0 and about 1 and depends neither on units nor on how constraints or masses are scaled. A row is redundant if its
+//! significance does not exceed a tolerance:
 //!
 //! - [`SolverOptions::rank_tolerance`] at a state that satisfies the constraints.
 //! - A set that is redundant only *on* the manifold φ = 0 (a third parallel rod of a parallelogram, Bricard's linkage) has, at a
@@ -434,6 +435,9 @@ impl Solver {
                 }),
             );
         }
+        let terms = &self.here;
+        let measure = &mut self.dense.measure;
+        measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
         let formula = self.factor()?;
         let tolerance = self.decide_rank(t, q, v)?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {

@@ -319,8 +319,8 @@ impl Spec {
             .map_or_else(|| Ok(vec![self.parameter_index(name)?]), Ok)
     }
 
-    /// Indices of the coordinates that one value for `name` is for: that coordinate, or all members of a family with this bare name, `p`, or
-    /// of its row, `p[1]`.
+    /// Indices of the coordinates that one value for `name` is for: that coordinate, or all members of a family with this bare name, `p`,
+    /// or of its row, `p[1]`.
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
@@ -387,8 +387,8 @@ impl Spec {
     }
 }
 
-/// Whether what is called `full` is, or belongs to, what is called `name`: `p[1][2]` to the row `p[1]` and the family `p`, `jib.angle` to the
-/// body `jib`, `load[0].x` to `load[0]` and to all of `load`, `pin.x` to the joint `pin`.
+/// Whether what is called `full` is, or belongs to, what is called `name`: `p[1][2]` to the row `p[1]` and the family `p`, `jib.angle` to
+/// the body `jib`, `load[0].x` to `load[0]` and to all of `load`, `pin.x` to the joint `pin`.
 #[must_use]
 pub fn belongs(full: &str, name: &str) -> bool {
     let rest = full.strip_prefix(name);

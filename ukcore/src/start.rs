@@ -102,6 +102,7 @@ impl Chosen {
 impl Prepared {
     /// The declared start called `name` with `options`, for the parameters of now: what it holds has its value, all else is where the
     /// constraints put it next to what the start says, or to 0. The first start is the default one.
+    /// [`Prepared::start_with_alternatives`] tells of other places that are as near.
     ///
     /// # Errors
     /// - [`Error::UnknownName`] with the nearest name for a start or option that is not declared, [`Error::NonFinite`] for a value that is

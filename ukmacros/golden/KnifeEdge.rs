@@ -31,10 +31,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 1 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 22 | 32 | 4 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 4 | 14 | 1 | 0 | 2 | 8 |
-/// | straight line, as emitted | 4 | 11 | 1 | 0 | 1 | 1 |
-/// | correction of a projection | 2 | 6 | 1 | 0 | 1 | 1 |
-/// | once for a set of parameters | 0 | 4 | 0 | 0 | 1 | 7 |
+/// | straight line, nothing hoisted | 3 | 9 | 1 | 0 | 2 | 6 |
+/// | straight line, as emitted | 3 | 7 | 0 | 0 | 1 | 0 |
+/// | correction of a projection | 1 | 2 | 0 | 0 | 1 | 0 |
+/// | once for a set of parameters | 0 | 3 | 1 | 0 | 1 | 6 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,7 +130,7 @@ const _: () = {
                 ("i", "i"),
                 ("g_sin_slope", "g*sin(slope)"),
                 (
-                    "safe_x",
+                    "safe_edge",
                     "1 if the pivots that depend on m, i alone are positive and finite, else 0",
                 ),
             ],
@@ -265,36 +265,36 @@ const _: () = {
                         selections: 0,
                     },
                     unprepared: ukcore::Operations {
-                        additions: 4,
-                        multiplications: 14,
+                        additions: 3,
+                        multiplications: 9,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 2,
-                        selections: 8,
+                        selections: 6,
                     },
                     acceleration: ukcore::Operations {
-                        additions: 4,
-                        multiplications: 11,
-                        divisions: 1,
-                        square_roots: 0,
-                        transcendentals: 1,
-                        selections: 1,
-                    },
-                    correction: ukcore::Operations {
-                        additions: 2,
-                        multiplications: 6,
-                        divisions: 1,
-                        square_roots: 0,
-                        transcendentals: 1,
-                        selections: 1,
-                    },
-                    prepare: ukcore::Operations {
-                        additions: 0,
-                        multiplications: 4,
+                        additions: 3,
+                        multiplications: 7,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 7,
+                        selections: 0,
+                    },
+                    correction: ukcore::Operations {
+                        additions: 1,
+                        multiplications: 2,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 0,
+                    },
+                    prepare: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 3,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 6,
                     },
                 },
             },
@@ -336,14 +336,12 @@ const _: () = {
                     constants: &[
                         1.7976931348623157e308,
                         2.2250738585072014e-308,
-                        0.0001,
                         1.0,
-                        0.75,
                         0.0,
                     ],
-                    code: b"174 bytes",
+                    code: b"160 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 12];
+                let mut registers = [S::from_f64(0.0); 10];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -361,20 +359,11 @@ const _: () = {
             prepared[1] = m;
             prepared[2] = i;
             prepared[3] = g * sin_slope;
+            let pivot_edge = m.recip();
             let safe_th = S::select_le(
                 i,
                 lit(1.7976931348623157e308),
-                S::select_le(
-                    lit(2.2250738585072014e-308),
-                    i,
-                    S::select_le(
-                        lit(0.0001) * S::select_le(i, m, m, i),
-                        S::select_le(m, i, m, i),
-                        lit(1.0),
-                        lit(0.75),
-                    ),
-                    lit(0.0),
-                ),
+                S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
                 lit(0.0),
             );
             let safe_x = S::select_le(
@@ -383,7 +372,13 @@ const _: () = {
                 S::select_le(lit(2.2250738585072014e-308), m, safe_th, lit(0.0)),
                 lit(0.0),
             );
-            prepared[4] = safe_x;
+            let safe_edge = S::select_le(
+                pivot_edge,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), pivot_edge, safe_x, lit(0.0)),
+                lit(0.0),
+            );
+            prepared[4] = safe_edge;
         }
         /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
         fn dynamics<S: ukcore::Scalar>(
@@ -560,7 +555,7 @@ const _: () = {
             drawing[4] = y;
             drawing[5] = -x;
         }
-        /// 4 additions, 11 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
+        /// 3 additions, 7 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
         fn acceleration<S: ukcore::Scalar>(
             prepared: &[S],
             t: S,
@@ -571,10 +566,10 @@ const _: () = {
             let out = ukcore::emitted::exact_mut::<S, 3>(out, "out");
             if const { S::TAPED } {
                 const TAPE: ukcore::Tape = ukcore::Tape {
-                    constants: &[2.2250738585072014e-308, 0.0],
-                    code: b"162 bytes",
+                    constants: &[0.0],
+                    code: b"110 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 21];
+                let mut registers = [S::from_f64(0.0); 18];
                 return S::play(
                     &TAPE,
                     &mut registers,
@@ -588,7 +583,7 @@ const _: () = {
                     &mut [&mut out[..]],
                 );
             }
-            let [_, _, _, g_sin_slope, safe_x] = *ukcore::emitted::exact::<
+            let [_, _, _, g_sin_slope, safe_edge] = *ukcore::emitted::exact::<
                 S,
                 5,
             >(prepared, "prepared");
@@ -596,20 +591,12 @@ const _: () = {
             let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
             let lit = S::from_f64;
             let (sin_th, cos_th) = th.sin_cos();
-            let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
-            let per_pivot_edge = pivot_edge.recip();
-            let safe_edge = S::select_le(
-                lit(2.2250738585072014e-308),
-                pivot_edge,
-                safe_x,
-                lit(0.0),
-            );
             let right_edge = g_sin_slope * sin_th
                 + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
             out[2] = lit(0.0);
             let safe = safe_edge;
-            out[1] = cos_th * right_edge * per_pivot_edge;
-            out[0] = (sin_th * right_edge).neg_mul_add(per_pivot_edge, g_sin_slope);
+            out[1] = cos_th * right_edge;
+            out[0] = sin_th.neg_mul_add(right_edge, g_sin_slope);
             safe
         }
         fn correction<S: ukcore::Scalar>(
@@ -621,26 +608,18 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 3>(out, "out");
-            let [_, _, _, _, safe_x] = *ukcore::emitted::exact::<
+            let [_, _, _, _, safe_edge] = *ukcore::emitted::exact::<
                 S,
                 5,
             >(prepared, "prepared");
             let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
             let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
             let lit = S::from_f64;
-            let (sin_th, cos_th) = th.sin_cos();
-            let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
-            let per_pivot_edge = pivot_edge.recip();
-            let safe_edge = S::select_le(
-                lit(2.2250738585072014e-308),
-                pivot_edge,
-                safe_x,
-                lit(0.0),
-            );
             out[2] = lit(0.0);
             let safe = safe_edge;
-            out[1] = residual_0 * cos_th * per_pivot_edge;
-            out[0] = -(residual_0 * sin_th * per_pivot_edge);
+            let (sin_th, cos_th) = th.sin_cos();
+            out[1] = residual_0 * cos_th;
+            out[0] = -(residual_0 * sin_th);
             safe
         }
         fn guess(

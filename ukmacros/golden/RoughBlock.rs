@@ -46,10 +46,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 2 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 8 | 17 | 1 | 0 | 1 | 6 |
+/// | straight line, nothing hoisted | 7 | 13 | 0 | 0 | 1 | 4 |
 /// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 2 |
 /// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
-/// | once for a set of parameters | 1 | 22 | 1 | 0 | 1 | 4 |
+/// | once for a set of parameters | 0 | 17 | 0 | 0 | 1 | 2 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,15 +146,13 @@ const _: () = {
                 ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
                 ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
                 ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
-                ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
+                ("sq_cos_slope", "sq(cos(slope))"),
                 ("g", "g"),
                 ("cos_slope_mu", "cos(slope)*mu"),
-                ("prepared_part_2", "sin(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
                 ("cos_slope_g", "cos(slope)*g"),
-                ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
                 (
-                    "safe_plane",
-                    "1 if the pivots that depend on m, slope alone are positive and finite, else 0",
+                    "safe_x",
+                    "1 if the pivots that depend on m alone are positive and finite, else 0",
                 ),
             ],
             coords: &["x", "y"],
@@ -232,7 +230,7 @@ const _: () = {
                         ukcore::Pivot::Constraint(0),
                     ],
                     fill: &[],
-                    checks: &[ukcore::Check::Positive(0), ukcore::Check::Positive(2)],
+                    checks: &[ukcore::Check::Positive(0)],
                     least_share: 0.0009765625,
                     regular: &[],
                     met: &[],
@@ -281,12 +279,12 @@ const _: () = {
                         selections: 0,
                     },
                     unprepared: ukcore::Operations {
-                        additions: 8,
-                        multiplications: 17,
-                        divisions: 1,
+                        additions: 7,
+                        multiplications: 13,
+                        divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 6,
+                        selections: 4,
                     },
                     acceleration: ukcore::Operations {
                         additions: 7,
@@ -305,12 +303,12 @@ const _: () = {
                         selections: 0,
                     },
                     prepare: ukcore::Operations {
-                        additions: 1,
-                        multiplications: 22,
-                        divisions: 1,
+                        additions: 0,
+                        multiplications: 17,
+                        divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 4,
+                        selections: 2,
                     },
                 },
             },
@@ -349,7 +347,7 @@ const _: () = {
             }
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-            let prepared = ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+            let prepared = ukcore::emitted::exact_mut::<S, 13>(prepared, "prepared");
             if const { S::TAPED } {
                 const TAPE: ukcore::Tape = ukcore::Tape {
                     constants: &[
@@ -358,9 +356,9 @@ const _: () = {
                         1.0,
                         0.0,
                     ],
-                    code: b"390 bytes",
+                    code: b"298 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 13];
+                let mut registers = [S::from_f64(0.0); 11];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -381,32 +379,17 @@ const _: () = {
             prepared[5] = mu * m * g * cos_slope * cos_slope;
             prepared[6] = mu * m * g * cos_slope * sin_slope;
             prepared[7] = mu * cos_slope * sin_slope;
-            let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
-            let per_pivot_plane = pivot_plane.recip();
-            prepared[8] = cos_slope * cos_slope * per_pivot_plane;
+            prepared[8] = cos_slope * cos_slope;
             prepared[9] = g;
             prepared[10] = mu * cos_slope;
-            prepared[11] = sin_slope * per_pivot_plane;
-            prepared[12] = g * cos_slope;
-            prepared[13] = cos_slope * per_pivot_plane;
+            prepared[11] = g * cos_slope;
             let safe_x = S::select_le(
                 m,
                 lit(1.7976931348623157e308),
                 S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
                 lit(0.0),
             );
-            let safe_plane = S::select_le(
-                pivot_plane,
-                lit(1.7976931348623157e308),
-                S::select_le(
-                    lit(2.2250738585072014e-308),
-                    pivot_plane,
-                    safe_x,
-                    lit(0.0),
-                ),
-                lit(0.0),
-            );
-            prepared[14] = safe_plane;
+            prepared[12] = safe_x;
         }
         /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
         fn dynamics<S: ukcore::Scalar>(
@@ -426,7 +409,7 @@ const _: () = {
                     constants: &[0.0],
                     code: b"154 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 24];
+                let mut registers = [S::from_f64(0.0); 22];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -434,7 +417,7 @@ const _: () = {
                         &[t],
                         ukcore::emitted::exact::<S, 2>(q, "q"),
                         ukcore::emitted::exact::<S, 2>(v, "v"),
-                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                        ukcore::emitted::exact::<S, 14>(prepared, "prepared"),
                     ],
                     (&[S::sign], &[S::branch]),
                     &mut [
@@ -448,9 +431,9 @@ const _: () = {
                 return;
             }
             let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
-            cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
+            cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
@@ -473,9 +456,9 @@ const _: () = {
             mass: &mut [S],
         ) {
             let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-            let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, _, _, _, m, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             mass[0] = m;
             mass[3] = m;
@@ -488,9 +471,9 @@ const _: () = {
             jacobian: &mut [S],
         ) {
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             jacobian[0] = sin_slope;
             jacobian[1] = cos_slope;
@@ -502,23 +485,23 @@ const _: () = {
                     constants: &[],
                     code: b"28 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 20];
+                let mut registers = [S::from_f64(0.0); 18];
                 S::play(
                     &TAPE,
                     &mut registers,
                     &[
                         &[t],
                         ukcore::emitted::exact::<S, 2>(q, "q"),
-                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                        ukcore::emitted::exact::<S, 14>(prepared, "prepared"),
                     ],
                     (&[], &[]),
                     &mut [&mut phi[..]],
                 );
                 return;
             }
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             phi[0] = y.mul_add(cos_slope, x * sin_slope);
@@ -536,7 +519,7 @@ const _: () = {
                     constants: &[],
                     code: b"28 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 22];
+                let mut registers = [S::from_f64(0.0); 20];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -544,16 +527,16 @@ const _: () = {
                         &[t],
                         ukcore::emitted::exact::<S, 2>(q, "q"),
                         ukcore::emitted::exact::<S, 2>(v, "v"),
-                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                        ukcore::emitted::exact::<S, 14>(prepared, "prepared"),
                     ],
                     (&[], &[]),
                     &mut [&mut rate[..]],
                 );
                 return;
             }
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
@@ -564,9 +547,9 @@ const _: () = {
             q: &[S],
             v: &[S],
         ) -> ukcore::Energy<S> {
-            let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -587,7 +570,7 @@ const _: () = {
         ) {
             let outputs = ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
             let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _,
-            _, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            ] = *ukcore::emitted::exact::<S, 14>(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
@@ -625,7 +608,7 @@ const _: () = {
                     constants: &[],
                     code: b"28 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 22];
+                let mut registers = [S::from_f64(0.0); 20];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -633,16 +616,16 @@ const _: () = {
                         &[t],
                         ukcore::emitted::exact::<S, 2>(q, "q"),
                         ukcore::emitted::exact::<S, 2>(v, "v"),
-                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                        ukcore::emitted::exact::<S, 14>(prepared, "prepared"),
                     ],
                     (&[], &[]),
                     &mut [&mut switching[..]],
                 );
                 return;
             }
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                16,
+                14,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
@@ -662,7 +645,7 @@ const _: () = {
                     constants: &[1.0],
                     code: b"140 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 25];
+                let mut registers = [S::from_f64(0.0); 23];
                 return S::play(
                     &TAPE,
                     &mut registers,
@@ -670,15 +653,17 @@ const _: () = {
                         &[t],
                         ukcore::emitted::exact::<S, 2>(q, "q"),
                         ukcore::emitted::exact::<S, 2>(v, "v"),
-                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                        ukcore::emitted::exact::<S, 14>(prepared, "prepared"),
                     ],
                     (&[S::sign], &[S::branch]),
                     &mut [&mut out[..]],
                 );
             }
             let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu,
-            prepared_part, g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane,
-            held_speed_down] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            sq_cos_slope, g, cos_slope_mu, cos_slope_g, safe_x, held_speed_down] = *ukcore::emitted::exact::<
+                S,
+                14,
+            >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
             let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
@@ -686,10 +671,10 @@ const _: () = {
             let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
             let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
             let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
-            let safe = safe_plane;
+            let safe = safe_x;
             out[0] = -(cos_slope_g
-                * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
-            out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
+                * sin_slope.neg_mul_add(right_plane, cos_slope_mu * right_x));
+            out[1] = -(g * sq_cos_slope.neg_mul_add(right_plane, right_y));
             safe
         }
         fn correction<S: ukcore::Scalar>(
@@ -701,12 +686,14 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
-            safe_plane, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, safe_x, _] = *ukcore::emitted::exact::<
+                S,
+                14,
+            >(prepared, "prepared");
             let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
-            let safe = safe_plane;
-            out[0] = -(residual_0 * prepared_part_2);
-            out[1] = -(residual_0 * prepared_part_3);
+            let safe = safe_x;
+            out[0] = -(residual_0 * sin_slope);
+            out[1] = -(residual_0 * cos_slope);
             safe
         }
         fn guess(

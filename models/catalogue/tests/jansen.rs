@@ -223,7 +223,7 @@ fn sketches<M: Legs>(spread: f64, draws: u64) -> (u64, u64) {
 #[test]
 fn legs_are_assembled_from_a_sketch() {
     assert_eq!(sketches::<Twelve>(0.04, 5), (5, 5));
-    assert_eq!(sketches::<Twelve>(0.4, 2), (2, 2));
+    assert_eq!(sketches::<Twelve>(0.4, 5), (5, 5));
     assert_eq!(sketches::<JansenLeg>(0.4, 60), (60, 60));
 }
 
@@ -231,14 +231,11 @@ fn legs_are_assembled_from_a_sketch() {
 #[ignore = "long: cargo test --release -p catalogue hunt -- --ignored --nocapture"]
 fn hunt_twelve_legs_are_assembled_from_sketches() {
     let draws = hunted(200);
-    for spread in [0.02, 0.04, 0.1, 0.2] {
+    for spread in [0.02, 0.04, 0.1, 0.2, 0.4] {
         assert_eq!(sketches::<Twelve>(spread, draws), (draws, draws));
         let legs = 5 * draws;
         assert_eq!(sketches::<JansenLeg>(spread, legs), (legs, legs));
     }
-    // Of legs drawn as far off as they are long a few are put together not in the nearest way: how many are is printed.
-    assert_eq!(sketches::<Twelve>(0.4, draws).0, draws);
-    assert_eq!(sketches::<JansenLeg>(0.4, 5 * draws).0, 5 * draws);
 }
 
 /// Without torque and drag the energy stays.

@@ -26,7 +26,8 @@ enum Source {
 }
 
 impl Columns {
-    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body means all that [belongs] to it.
+    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body, where no column is called so, means all that
+    /// [belongs] to it.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a name that is none, with the nearest.
@@ -36,7 +37,10 @@ impl Columns {
         for name in names {
             let name = name.as_ref().trim();
             let before = chosen.len();
-            chosen.extend(all.iter().filter(|(known, _)| means(name, known)).cloned());
+            match all.iter().find(|(known, _)| known == name) {
+                Some(called) => chosen.push(called.clone()),
+                None => chosen.extend(all.iter().filter(|(known, _)| means(name, known)).cloned()),
+            }
             if chosen.len() == before {
                 let mut known = all.iter().map(|(known, _)| known.as_str());
                 return Err(Error::unknown_name("quantity", name, &mut known).into());
@@ -160,10 +164,45 @@ fn means(name: &str, known: &str) -> bool {
         _ => false,
     }
 }
+
 /// A name, with a unit behind where there is one.
 pub(crate) fn labelled((name, unit): (impl Into<String>, String)) -> String {
     match unit.as_str() {
         "" => name.into(),
         unit => format!("{} ({unit})", name.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ukcore::Mechanism;
+
+    ukcore::multibody! {
+        /// A bar that hangs on a pin, with an output that is called like it.
+        Hanging {
+            bodies { planar bar { mass: 1, inertia: 0.1, centre: [0.5, 0] } }
+            gravity { [0, -9.81] }
+            holonomic { top: pin(ground.at([0, 0]), bar.at([0, 0])) }
+            output { bar = bar.angle, end = bar.at([1, 0]) }
+        }
+    }
+
+    #[test]
+    fn names_of_columns_go_before_those_of_bodies_and_families() {
+        let mechanism = Hanging::default().prepared();
+        let names = |asked: &[&str]| -> Vec<String> {
+            let found = Columns::named(&mechanism, asked).expect("quantities");
+            found.names().map(str::to_owned).collect()
+        };
+        assert_eq!(names(&["bar", "end"]), ["bar", "end[0]", "end[1]"]);
+        assert_eq!(
+            names(&["dot(bar)"]),
+            ["dot(bar.x)", "dot(bar.y)", "dot(bar.angle)"]
+        );
+        // What is found by its own name is found again.
+        let found = names(&["bar", "end", "dot(bar)", "t"]);
+        let again: Vec<&str> = found.iter().map(String::as_str).collect();
+        assert_eq!(names(&again), found);
     }
 }

@@ -62,6 +62,7 @@ pub mod stability;
 mod summary;
 pub mod sweep;
 pub mod units;
+mod ways;
 
 pub use ukcore::model::Entry;
 

@@ -1,5 +1,7 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
+use std::io::{self, Write};
+
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
@@ -8,6 +10,7 @@ use ukcore::{Error, Prepared, State, assemble};
 use crate::command::find;
 use crate::failure::Failure;
 use crate::units::{self, Quantity};
+use crate::ways::{Look, Ways};
 
 /// The command-line arguments that name a mechanism, its parameters and its start.
 #[derive(Debug, Args)]
@@ -67,14 +70,32 @@ pub struct Ready<'a> {
     pub duration: f64,
 }
 
+/// Ways that are noted, at most.
+const NOTES: usize = 3;
+
 impl Scene {
-    /// Finds the mechanism that is asked for, sets its parameters and puts it together at its start.
+    /// Finds the mechanism that is asked for, sets its parameters and puts it together at its start. Where assembly sees other ways to do
+    /// that which are as near, notes on standard error tell them.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
     /// nothing near the guess satisfies the constraints.
     pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
-        self.start.ready(find(models, &self.model)?)
+        let ready = self.start.ready(find(models, &self.model)?)?;
+        // A start that is given by other means need not be declared so that it can be assembled.
+        let ways = self.start.ways(ready.entry, Look::AtParts).ok().flatten();
+        let ways = ways.filter(|ways| ways.are_of(&ready));
+        let others: Vec<String> = ways.iter().flat_map(Ways::others).collect();
+        let mut stderr = io::stderr();
+        // It may be closed.
+        for other in others.iter().take(NOTES) {
+            let _ = writeln!(stderr, "note: {other}");
+        }
+        if others.len() > NOTES {
+            let more = others.len() - NOTES;
+            let _ = writeln!(stderr, "note: {more} more such ways; `diagnose` lists them");
+        }
+        Ok(ready)
     }
 }
 
@@ -100,22 +121,14 @@ impl Start {
     /// What [`Scene::ready`] reports.
     pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let (mechanism, start, options) = self.settings(entry)?;
-        let mut state = match start {
-            Some(spec) => entry.start(&mechanism, spec.name, &options)?,
-            None => State {
-                t: 0.0,
-                q: vec![0.0; mechanism.spec().n()],
-                v: vec![0.0; mechanism.spec().n()],
-            },
+        let (name, state) = match start.filter(|_| !self.guesses()) {
+            Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),
+            None => ("assembled", self.assembled(&mechanism, self.guess(entry)?)?),
         };
-        let name = start.filter(|_| !self.guesses()).map(|spec| spec.name);
-        if name.is_none() {
-            state = self.assembled(&mechanism, state)?;
-        }
         Ok(Ready {
             entry,
             mechanism,
-            start: name.unwrap_or("assembled"),
+            start: name,
             state,
             duration: StartSpec::typical(start),
         })
@@ -163,9 +176,18 @@ impl Start {
         Ok(Some(found.ok_or_else(unknown)?))
     }
 
-    /// The nearest consistent state to `state` with the guesses in it.
-    fn assembled(&self, mechanism: &Prepared, mut state: State) -> Result<State, Failure> {
+    /// The start state asked for, or zeros where the model has none, with the guesses in it.
+    pub(crate) fn guess(&self, entry: &Entry) -> Result<State, Failure> {
+        let (mechanism, start, options) = self.settings(entry)?;
         let spec = mechanism.spec();
+        let mut state = match start {
+            Some(start) => entry.start(&mechanism, start.name, &options)?,
+            None => State {
+                t: 0.0,
+                q: vec![0.0; spec.n()],
+                v: vec![0.0; spec.n()],
+            },
+        };
         once("--guess", &self.place.guesses)?;
         for (name, quantity) in &self.place.guesses {
             let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
@@ -183,10 +205,15 @@ impl Start {
                 values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             }
         }
-        assemble(mechanism, state, &self.place.held()).map_err(|error| match error {
+        Ok(state)
+    }
+
+    /// The nearest consistent state to `guess`.
+    fn assembled(&self, mechanism: &Prepared, guess: State) -> Result<State, Failure> {
+        assemble(mechanism, guess, &self.place.held()).map_err(|error| match error {
             error @ Error::NotAssembled { .. } => Failure::Failed(format!(
                 "{error}; `--guess NAME=VALUE` gives one, of {}",
-                spec.coords.join(", ")
+                mechanism.spec().coords.join(", ")
             )),
             other => other.into(),
         })

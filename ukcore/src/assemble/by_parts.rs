@@ -16,8 +16,12 @@ pub(super) const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Beginnings where solutions lie apart and another one may be nearer: the guess, its perturbations, and rounds of others that are ever
-/// farther off. After the first round they end when each solution has been met twice: the chance that the next one leads to a solution not
-/// yet met is about the share of those met once (Good 1953, The population frequencies of species, Biometrika 40, 237-264).
+/// farther off. After the first round they end when each solution has been met twice and none is known to be missing.
+///
+/// The chance that the next beginning leads to a solution not yet met is about the share of those met once (Good 1953, The population
+/// frequencies of species, Biometrika 40, 237-264). That one is missing is seen from the signs of det ∂φ/∂x: their sum over all solutions,
+/// the degree of φ, is that for any other lengths of the bars (Milnor 1965, Topology from the differentiable viewpoint, §5), so 0, as for
+/// some there is no solution.
 const BEGINNINGS: usize = SHAKES.len() + ROUNDS * ROUND;
 
 /// Random beginnings of one round.
@@ -61,9 +65,43 @@ struct Straight {
 }
 
 impl Straight {
+    /// Whether the unknowns of `part` are in `x` as they are here.
+    fn goes_through(&self, part: &Part, x: &[f64]) -> bool {
+        part.unknowns.iter().all(|j| x[*j] == self.x[*j])
+    }
+
     /// How far the parts `group` are, if all have a solution.
     fn distance(&self, group: &[usize]) -> Option<f64> {
         group.iter().map(|part| self.distances[*part]).sum()
+    }
+}
+
+/// The solutions of a part that beginnings led to.
+#[derive(Default)]
+struct Met {
+    found: Vec<Found>,
+    /// Whether each was met but once.
+    once: Vec<bool>,
+    /// Sum of the signs of det ∂φ/∂x.
+    degree: i32,
+}
+
+impl Met {
+    /// Takes a solution, at which det ∂φ/∂x has the sign `orientation`.
+    fn enter(&mut self, next: Found, orientation: impl FnOnce(&[f64]) -> i32) {
+        let same = |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
+        if let Some(known) = self.found.iter().position(same) {
+            self.once[known] = false;
+            return;
+        }
+        self.degree += orientation(&next.x);
+        self.found.push(next);
+        self.once.push(true);
+    }
+
+    /// Whether no other one is expected, or so many are that they do not lie apart.
+    fn seem_all(&self) -> bool {
+        self.degree == 0 && !self.once.contains(&true) || 2 * self.found.len() > ROUND
     }
 }
 
@@ -86,8 +124,28 @@ impl<'a> ByParts<'a> {
     /// All parts solved as near to the guess as is found.
     pub(super) fn found_nearest(&mut self) -> Option<Found> {
         let straight = self.straight();
+        self.nearest_of_all(&straight)
+    }
+
+    fn nearest_of_all(&mut self, straight: &Straight) -> Option<Found> {
         let all: Vec<usize> = (0..self.parts.len()).collect();
-        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(&straight))
+        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(straight))
+    }
+
+    /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first: in
+    /// each of them it is another one.
+    pub(super) fn found_near(&mut self, (times, none): (f64, f64)) -> Option<(Found, Vec<Found>)> {
+        let straight = self.straight();
+        let nearest = self.nearest_of_all(&straight)?;
+        let all: Vec<usize> = (0..self.parts.len()).collect();
+        let mut others = Vec::new();
+        for group in self.groups(&all) {
+            let bound = times.powi(2) * self.distance(&group, &nearest.x).max(none * none);
+            let before = (self.guess, Some(&straight));
+            self.others(&group, &nearest.x, before, bound, &mut others);
+        }
+        others.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        Some((nearest, others))
     }
 
     /// The first solution of each part that is found.
@@ -144,11 +202,8 @@ impl<'a> ByParts<'a> {
                 if first.distance >= within {
                     break;
                 }
-                let same = |known: &&Straight| {
-                    let mut unknowns = self.parts[group[0]].unknowns.iter();
-                    unknowns.all(|j| first.x[*j] == known.x[*j])
-                };
-                let known = known.filter(same);
+                let part = &self.parts[group[0]];
+                let known = known.filter(|known| known.goes_through(part, &first.x));
                 let rest = self.nearest(&group[1..], first.x, within - first.distance, known);
                 best = rest.map_or(best, |rest| {
                     Some(Found {
@@ -164,17 +219,18 @@ impl<'a> ByParts<'a> {
     }
 
     /// Other solutions of the parts `group`, which need each other, than `nearest`, less than `bound` from the guess, where all before is
-    /// as in `x`: they branch off it in one part, and from there on are the nearest there.
-    pub(super) fn others(
+    /// as in `x`, and maybe as it is `straight` from the guess: they branch off it in one part, and from there on are the nearest there.
+    fn others(
         &mut self,
         group: &[usize],
         nearest: &[f64],
-        x: &[f64],
+        (x, straight): (&[f64], Option<&Straight>),
         bound: f64,
         out: &mut Vec<Found>,
     ) {
         let (first, rest) = (group[0], &group[1..]);
-        for found in self.solutions(first, x, bound, None) {
+        let straight = straight.filter(|straight| straight.distances[first].is_some());
+        for found in self.solutions(first, x, bound, straight) {
             let left = bound - found.distance;
             if left <= 0.0 {
                 break;
@@ -192,15 +248,16 @@ impl<'a> ByParts<'a> {
                 continue;
             }
             let all = self.distance(rest, nearest);
+            let known = straight.filter(|known| known.goes_through(&self.parts[first], &found.x));
             for group in self.groups(rest) {
                 let others = all - self.distance(&group, nearest);
-                self.others(&group, nearest, &found.x, left - others, out);
+                self.others(&group, nearest, (&found.x, known), left - others, out);
             }
         }
     }
 
     /// The parts `open`, in those that need each other, be it through others of them.
-    pub(super) fn groups(&self, open: &[usize]) -> Vec<Vec<usize>> {
+    fn groups(&self, open: &[usize]) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for part in open {
             let needed =
@@ -226,12 +283,9 @@ impl<'a> ByParts<'a> {
     ) -> Vec<Found> {
         let distance = straight.and_then(|straight| straight.distances[part]);
         let part = &self.parts[part];
-        let (mut found, mut random) = (Vec::<Found>::new(), Random::new(SEED));
-        let mut once: Vec<bool> = Vec::new();
+        let (mut met, mut random) = (Met::default(), Random::new(SEED));
         for beginning in 0..BEGINNINGS {
-            let further = beginning >= SHAKES.len() + ROUND;
-            // Where most are new they do not lie apart.
-            if further && (!once.contains(&true) || 2 * found.len() > ROUND) {
+            if beginning >= SHAKES.len() + ROUND && met.seem_all() {
                 break;
             }
             let known = straight.zip(distance).filter(|_| beginning == 0);
@@ -246,16 +300,9 @@ impl<'a> ByParts<'a> {
             let Some(next) = next else {
                 continue;
             };
-            let same =
-                |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
-            match found.iter().position(same) {
-                Some(known) => once[known] = false,
-                None => {
-                    found.push(next);
-                    once.push(true);
-                }
-            }
-            let first = found[0].distance;
+            let manifold = &mut self.search.manifold;
+            met.enter(next, |x| manifold.orientation(self.at, part, x));
+            let first = met.found[0].distance;
             if !part.is_determined()
                 || self.search.begun >= MOST
                 || beginning == 0 && self.is_alone(part, x, bound.max(first))
@@ -263,8 +310,8 @@ impl<'a> ByParts<'a> {
                 break;
             }
         }
-        found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        found
+        met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        met.found
     }
 
     /// Whether a solution of `part` less than `distance` from the guess, or as far, is the only one there.
@@ -339,7 +386,7 @@ impl<'a> ByParts<'a> {
     }
 
     /// The same of several parts.
-    pub(super) fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
+    fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
         let distances = group
             .iter()
             .map(|part| self.distance_of(&self.parts[*part], x));
@@ -357,5 +404,24 @@ pub(super) fn shake(x: &mut [f64], free: &[usize], by: f64) {
     for (k, &j) in free.iter().enumerate() {
         let along = ((k as f64 + 1.0) * GOLDEN).fract();
         x[j] += by * (2.0 * along - 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each solution twice, in turn: of two rows with opposite signs all are met, of one or three another is missing.
+    #[test]
+    fn an_odd_solution_is_not_the_last() {
+        for (signs, all) in [(&[1][..], false), (&[1, -1], true), (&[1, -1, 1], false)] {
+            let mut met = Met::default();
+            for k in (0..signs.len()).chain(0..signs.len()) {
+                let (x, distance) = (vec![1.0 + k as f64], 0.0);
+                met.enter(Found { x, distance }, |_| signs[k]);
+            }
+            assert_eq!(met.found.len(), signs.len());
+            assert_eq!(met.seem_all(), all, "{signs:?}");
+        }
     }
 }

@@ -7,8 +7,8 @@ use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
 use crate::scan::largest;
 
-/// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls each
-/// time by the share for which it counts, in the end to rounding.
+/// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls
+/// each time by the share for which it counts, in the end to rounding.
 const TIMES: usize = 3;
 
 /// The search for q, then for q̇.
@@ -91,20 +91,10 @@ impl Search {
             return None;
         }
         let mut by_parts = ByParts::new(self, at, guess, &parts);
-        let nearest = by_parts.found_nearest()?.x;
-        let all: Vec<usize> = (0..parts.len()).collect();
-        let mut others = Vec::new();
-        for group in by_parts.groups(&all) {
-            let bound = times.powi(2) * by_parts.distance(&group, &nearest).max(none * none);
-            by_parts.others(&group, &nearest, guess, bound, &mut others);
-        }
-        others.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let mut ways = vec![self.projected(at, nearest)?];
-        ways.extend(
-            others
-                .into_iter()
-                .filter_map(|other| self.projected(at, other.x)),
-        );
+        let (nearest, others) = by_parts.found_near((times, none))?;
+        let mut ways = vec![self.projected(at, nearest.x)?];
+        let others = others.into_iter();
+        ways.extend(others.filter_map(|other| self.projected(at, other.x)));
         Some(ways)
     }
 
@@ -134,7 +124,8 @@ impl Search {
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
         for even in [false, true] {
-            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
+            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is
+            // long.
             if even {
                 self.manifold.even();
             }

@@ -1,7 +1,7 @@
 //! What counts as zero.
 
 use crate::lanes::Lanes;
-use crate::scan::Size;
+use crate::scan::{Size, excess, excess_by, largest};
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -14,7 +14,7 @@ pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
 /// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is
-/// small because coordinates need not be of one unit.
+/// small because coordinates of one unit need not be of one size.
 pub(super) const NEIGHBOUR: f64 = 1e-4;
 
 /// Sizes of the constraints' terms at a place x, and with them the residuals that count as zero there.
@@ -22,6 +22,9 @@ pub(super) const NEIGHBOUR: f64 = 1e-4;
 pub(crate) struct Acceptance<L> {
     /// How readily coordinates move, which says what is the same for coordinates of different units; empty where all count alike.
     pub(super) ease: Vec<f64>,
+    /// What makes coordinates of different units comparable, where they are not as readily moved as `ease` says; empty where all are of one
+    /// unit.
+    pub(super) units: Vec<f64>,
     /// Coordinates that do not move at all.
     pub(super) held: Vec<usize>,
     /// What coordinates that are zero themselves are measured by: x where the search began.
@@ -29,7 +32,7 @@ pub(crate) struct Acceptance<L> {
     /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] size).
     terms: Vec<L>,
     /// max|A_cj|.
-    largest: Vec<L>,
+    entries: Vec<L>,
     /// What rounding the evaluation of each residual carries, in units of ε.
     pub(super) rounding: Vec<f64>,
 }
@@ -40,10 +43,11 @@ impl<L: Lanes> Acceptance<L> {
         let zero = L::from_f64(0.0);
         Acceptance {
             ease: Vec::new(),
+            units: Vec::new(),
             held: Vec::new(),
             size: Size::new(zero),
             terms: vec![zero; m],
-            largest: vec![zero; m],
+            entries: vec![zero; m],
             rounding: vec![0.0; m],
         }
     }
@@ -52,12 +56,47 @@ impl<L: Lanes> Acceptance<L> {
     pub(super) fn weigh(&mut self, pattern: &[(usize, usize)], jacobian: &[L], x: &[L]) {
         let (m, zero) = (self.terms.len(), L::from_f64(0.0));
         self.terms.fill(zero);
-        self.largest.fill(zero);
+        self.entries.fill(zero);
         for &(c, j) in pattern {
-            let least = L::from_f64(NEIGHBOUR) * self.size.least(&self.ease, j);
+            let least = match self.units.get(j) {
+                Some(unit) => self.size.by(*unit),
+                None => self.size.least(&self.ease, j),
+            };
+            let least = L::from_f64(NEIGHBOUR) * least;
             let entry = jacobian[j * m + c].abs();
             self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
-            self.largest[c] = entry.larger(self.largest[c]);
+            self.entries[c] = entry.larger(self.entries[c]);
+        }
+    }
+
+    /// The size of x, coordinates or their changes.
+    pub(super) fn measured(&self, x: &[L]) -> Size<L> {
+        Size::of(
+            x,
+            if self.units.is_empty() {
+                &self.ease
+            } else {
+                &self.units
+            },
+        )
+    }
+
+    /// max|x|, of coordinates of different units by these.
+    #[inline]
+    pub(super) fn largest(&self, x: &[L]) -> L {
+        match self.units.is_empty() {
+            true => largest(x),
+            false => Size::of(x, &self.units).by(1.0),
+        }
+    }
+
+    /// 0 where each change in `d` is at most `share` of x and of [`NEIGHBOUR`] of the size, or of none, else more.
+    #[inline]
+    pub(super) fn excess(&self, d: &[L], x: &[L], share: L, exact: bool) -> L {
+        let neighbour = L::from_f64(if exact { 0.0 } else { NEIGHBOUR });
+        match self.units.is_empty() {
+            true => excess(d, x, share, neighbour * self.size.largest),
+            false => excess_by(d, x, share, neighbour * self.size.by(1.0), &self.units),
         }
     }
 
@@ -79,7 +118,7 @@ impl<L: Lanes> Acceptance<L> {
 impl Acceptance<f64> {
     /// max|A_cj|, or 1 for a row of zeros, which has no scale.
     pub(super) fn scale(&self, c: usize) -> f64 {
-        match self.largest[c] {
+        match self.entries[c] {
             entry if entry > 0.0 => entry,
             _ => 1.0,
         }
@@ -117,8 +156,8 @@ impl Acceptance<f64> {
     /// The largest length in the constraints `rows`, in the unit of x: the rounding of a residual as the change of a coordinate that makes
     /// it.
     pub(super) fn length(&self, rows: impl Iterator<Item = usize>) -> f64 {
-        rows.filter(|c| self.largest[*c] > 0.0)
-            .map(|c| self.rounding[c] / self.largest[c])
+        rows.filter(|c| self.entries[*c] > 0.0)
+            .map(|c| self.rounding[c] / self.entries[c])
             .fold(0.0, f64::max)
     }
 }

@@ -1,11 +1,11 @@
 //! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
 
-use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING, STALLED};
+use super::acceptance::{Acceptance, ROUNDING, STALLED};
 use super::level::{At, Level};
 use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::noise::Noise;
-use crate::scan::{Size, excess, largest, sum};
+use crate::scan::{Size, largest, sum};
 use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
@@ -85,7 +85,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.size = Size::of(x, &self.acceptance.ease);
+        self.acceptance.size = self.acceptance.measured(x);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);
@@ -127,13 +127,18 @@ impl<L: Lanes> Newton<L> {
             // What is not finite makes the certificate NaN.
             let safe = make(newton, x) + zero::<L>() * sum(&newton.step);
             let go = le(half, safe, left - met);
-            let (change, size) = (largest(&newton.step), newton.acceptance.size.largest);
-            let least = L::from_f64(if exact { 0.0 } else { NEIGHBOUR }) * size;
+            let acceptance = &newton.acceptance;
+            let change = acceptance.largest(&newton.step);
+            let size = match acceptance.units.is_empty() {
+                true => acceptance.size.largest,
+                false => acceptance.size.by(1.0),
+            };
             let falls = le(change, L::from_f64(progress) * previous, go);
             let small = le(change, rounding * size, go);
             if any(small) {
                 // Where rounding alone is left: as |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level.
-                let within = le(excess(&newton.step, x, rounding, least), zero(), small);
+                let beyond = acceptance.excess(&newton.step, x, rounding, exact);
+                let within = le(beyond, zero(), small);
                 let rest = small - within;
                 met = met + within;
                 if any(rest) && exact {
@@ -149,7 +154,8 @@ impl<L: Lanes> Newton<L> {
             stalled = go - le(half, falls, go);
             if !exact {
                 let trusted = L::from_f64(trusted);
-                last = le(excess(&newton.step, x, trusted, least), zero(), go);
+                let beyond = newton.acceptance.excess(&newton.step, x, trusted, exact);
+                last = le(beyond, zero(), go);
             }
             (previous, before) = (change, newton.off);
             (met, go - stalled)
@@ -232,9 +238,8 @@ impl Newton<f64> {
         noise: &mut Noise,
         factors: Option<&mut Dense>,
     ) {
-        let Acceptance { ease, size, .. } = &self.acceptance;
-        let size = size.larger(Size::of(x, ease));
-        let least = at.level.state(size, Size::of(at.other, ease));
+        let size = self.acceptance.size.larger(self.acceptance.measured(x));
+        let least = at.level.state(size, self.acceptance.measured(at.other));
         self.rounding(at, x, noise, least.into());
         let Acceptance {
             ease,
@@ -258,13 +263,18 @@ impl Newton<f64> {
         noise: &mut Noise,
         least: [Size<f64>; 2],
     ) {
-        let Acceptance { ease, rounding, .. } = &mut self.acceptance;
+        let Acceptance {
+            ease,
+            units,
+            rounding,
+            ..
+        } = &mut self.acceptance;
         noise.go(
             at.mech,
             at.t,
             at.level.state(x, at.other).into(),
             least,
-            ease,
+            if units.is_empty() { ease } else { units },
         );
         match at.level {
             Level::Position => noise.residual(rounding),

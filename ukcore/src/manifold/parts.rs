@@ -3,8 +3,8 @@
 //! A coordinate that is held, or that its own rows determine as a driven crank's do, is known to all others; what hangs together through
 //! such coordinates alone is not connected. The parts follow from the structure of A by the decomposition of Dulmage and Mendelsohn (1958,
 //! Coverings of bipartite graphs, Canad. J. Math. 10, 517-534; Pothen & Fan 1990, Computing the block triangular form of a sparse matrix,
-//! ACM Trans. Math. Softw. 16, 303-324): rows that determine their unknowns split into the strongly connected blocks of who depends on whom,
-//! rows with more unknowns than there are of them, or fewer, into connected components.
+//! ACM Trans. Math. Softw. 16, 303-324): rows that determine their unknowns split into the strongly connected blocks of who depends on
+//! whom, rows with more unknowns than there are of them, or fewer, into connected components.
 
 /// Rows, and the unknowns that they are solved for where those of the parts before are known.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -86,6 +86,9 @@ impl Factors {
         }
         self.hold(jacobian, &newton.acceptance.held);
         let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
+        let (q, v) = at.level.state(x, at.other);
+        let measure = &mut dense.measure;
+        measure.take(at.mech, at.t, [q, v], jacobian, mass);
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
@@ -93,6 +96,21 @@ impl Factors {
             dense.set_rank(leading(dense.cod.pivots(), least), mass)
         });
         ranked.map_err(|fault| mass_error(spec, fault))
+    }
+
+    /// What makes coordinates of different units comparable at a state, A of which comes into `jacobian`.
+    pub(super) fn measure(
+        &mut self,
+        mech: &Prepared,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        jacobian: &mut [f64],
+    ) -> &[f64] {
+        mech.jacobian(t, q, v, jacobian);
+        mech.mass_matrix(t, q, &mut self.mass);
+        let measure = &mut self.dense.measure;
+        measure.take(mech, t, [q, v], jacobian, &self.mass);
+        &measure.scale
     }
 
     /// Whether there are rows of a significance below the ceiling.

@@ -98,6 +98,7 @@ impl Manifold {
         let mut manifold = Manifold::new(mechanism);
         let acceptance = &mut manifold.newton.acceptance;
         (acceptance.ease, acceptance.held) = (ease, held);
+        acceptance.units.clear();
         manifold
     }
 
@@ -118,6 +119,23 @@ impl Manifold {
         ease.fill(mean.exp());
     }
 
+    /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each other.
+    pub(crate) fn orientation(&mut self, at: &At<'_, f64>, part: &Part, x: &[f64]) -> i32 {
+        if part.rows.len() != part.unknowns.len() {
+            return 0;
+        }
+        self.newton.evaluate(at, x);
+        self.newton.weigh(at, x);
+        let factors = Best::new(&self.newton, part, x).matrix.lu();
+        let even: f64 = factors.p().determinant();
+        let signs = factors.u().diagonal().map(|d| (d > 0.0, d < 0.0));
+        signs
+            .iter()
+            .fold(even as i32, |sign, (positive, negative)| {
+                sign * (i32::from(*positive) - i32::from(*negative))
+            })
+    }
+
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
     /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
@@ -134,8 +152,8 @@ impl Manifold {
         cost
     }
 
-    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns 0,
-    /// or the sum of the squares of the scaled residuals where it is least.
+    /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns
+    /// 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search_part(
         &mut self,
         at: &At<'_, f64>,

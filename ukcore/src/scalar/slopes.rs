@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::tape::{Functions, Tape, play};
+use super::tape::{Functions, Tape, play, player};
 use super::{Dual, Scalar};
 
 /// The derivative of a value in numbers `S`, as a [`Dual`] carries it: a number, along one direction, or [`Slopes`] along several.
@@ -126,16 +126,7 @@ impl Neg for Slopes {
 
 impl Slope<f64> for Slopes {
     const READ: bool = true;
-    // Not generic, so that it is compiled in this crate.
-    fn read(
-        tape: &Tape,
-        registers: &mut [Sloped],
-        inputs: &[&[Sloped]],
-        functions: Functions<'_, Sloped>,
-        slices: &mut [&mut [Sloped]],
-    ) -> Sloped {
-        play(tape, registers, inputs, functions, slices)
-    }
+    player!(read Sloped);
     fn zero() -> Self {
         Slopes([0.0; Slopes::COUNT])
     }

@@ -32,6 +32,22 @@ pub struct Tape {
 /// The functions of one and of two arguments that a tape names.
 pub type Functions<'a, S> = (&'a [fn(S) -> S], &'a [fn(S, S) -> S]);
 
+/// A function that [`play`]s in numbers `$S`: not generic, so that the reader is compiled in this crate.
+macro_rules! player {
+    ($name:ident $S:ty) => {
+        fn $name(
+            tape: &$crate::scalar::Tape,
+            registers: &mut [$S],
+            inputs: &[&[$S]],
+            functions: $crate::scalar::Functions<'_, $S>,
+            slices: &mut [&mut [$S]],
+        ) -> $S {
+            $crate::scalar::tape::play(tape, registers, inputs, functions, slices)
+        }
+    };
+}
+pub(crate) use player;
+
 /// Reads `tape`: the function of `inputs`, into `slices`. Registers hold anything before.
 ///
 /// Plain indices, no iterators: this is fast where builds for tests hardly optimise, too.

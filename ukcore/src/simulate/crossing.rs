@@ -10,6 +10,7 @@ use crate::assemble::State;
 use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::integrate::sample::Sample;
+use crate::measure::Measure;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
 use crate::pinv::{Decomposition, axpy, dot};
@@ -68,16 +69,24 @@ pub(super) struct Search<'a> {
     shares: Vec<Vec<f64>>,
 }
 
+/// A row of A that vanishes, and how large it has been, measured by a scale.
+#[derive(Clone, Copy)]
+pub(super) struct Vanishing<'a> {
+    pub(super) row: usize,
+    pub(super) size: f64,
+    pub(super) scale: &'a [f64],
+}
+
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
 /// Where a row is known to vanish by itself, its size is compared with the given one.
 pub(super) fn find(
     mech: &Prepared,
     near: &State,
-    vanishing: Option<(usize, f64)>,
+    vanishing: Option<Vanishing<'_>>,
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
-    if let Some((row, size)) = vanishing {
-        search.dense.sizes[row] = size;
+    if let Some(vanishing) = vanishing {
+        search.compare(vanishing);
     }
     search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
@@ -151,13 +160,21 @@ pub(super) fn between(
 }
 
 /// The constraints that are lost at `start`, where branches cross, as a motion with the velocities `v` would find them from beside it;
-/// `size` is that of the coordinates.
-pub(super) fn at(mech: &Prepared, start: Sample<'_>, v: &[f64], size: f64) -> Option<Vec<String>> {
+/// `size` is that of the coordinates by the measure given.
+pub(super) fn at(
+    mech: &Prepared,
+    start: Sample<'_>,
+    v: &[f64],
+    size: f64,
+    measure: &Measure,
+) -> Option<Vec<String>> {
     let beside = |(share, tilt): (f64, f64)| {
         // A direction of f's own gradient shows nothing of the others.
-        let speed = largest(v);
-        let tilted = v.iter().zip([1.0, -0.6, 0.3, -0.8, 0.5].iter().cycle());
-        let v: Vec<f64> = tilted.map(|(v, part)| v + tilt * part * speed).collect();
+        let speed = measure.size(v);
+        let parts = [1.0, -0.6, 0.3, -0.8, 0.5].iter().cycle();
+        let tilted = v.iter().zip(&measure.scale).zip(parts);
+        let tilted = tilted.map(|((v, unit), part)| v + tilt * part * speed * unit);
+        let v: Vec<f64> = tilted.collect();
         let way = share * size / speed;
         let mut q = start.q.to_vec();
         axpy(way, &v, &mut q);
@@ -173,17 +190,18 @@ pub(super) fn at(mech: &Prepared, start: Sample<'_>, v: &[f64], size: f64) -> Op
     all.filter(|_| moves).find_map(beside)
 }
 
-/// Whether a row of A that is small at a state, beside its `size`, says something there that the others do not.
-pub(super) fn counts(mech: &Prepared, near: &State, row: usize, size: f64) -> bool {
+/// Whether a row of A that is small at a state, beside what it has been, says something there that the others do not.
+pub(super) fn counts(mech: &Prepared, near: &State, vanishing: Vanishing<'_>) -> bool {
     let mut search = Search::new(mech, near);
-    search.dense.sizes[row] = size;
+    search.compare(vanishing);
+    let Vanishing { row, size, scale } = vanishing;
     if search.factor(&near.v).is_none() {
         return false;
     }
     let cod = &search.dense.cod;
     let place = cod.order().iter().position(|c| *c == row);
     let left = place.and_then(|place| cod.pivots().get(place));
-    let all = search.terms.rows().largest(row) / size;
+    let all = search.terms.rows().largest(row, scale) / size;
     left.is_some_and(|left| *left > RANK_CEILING * all)
 }
 
@@ -207,11 +225,19 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Compares a row with what it has been.
+    fn compare(&mut self, Vanishing { row, size, scale }: Vanishing<'_>) {
+        self.dense.sizes[row] = size;
+        self.dense.measure.keep(scale);
+    }
+
     /// Evaluates and factors the equations where the search stands, and takes the rank.
     fn factor(&mut self, v: &[f64]) -> Option<()> {
         self.terms.dynamics(self.mech, self.t, &self.q, v);
         let massless = !self.mech.spec().structure.massless.is_empty();
-        let Evaluated { mass, .. } = &self.terms;
+        let Evaluated { mass, jacobian, .. } = &self.terms;
+        let measure = &mut self.dense.measure;
+        measure.take(self.mech, self.t, [&self.q, v], jacobian, mass);
         let factored =
             (self.dense).factor_as_needed(massless, mass, self.terms.rows(), RANK_TOLERANCE);
         factored.ok()?;
@@ -299,7 +325,8 @@ impl<'a> Search<'a> {
         if !(speed > 0.0 && speed < f64::INFINITY) {
             return None;
         }
-        self.scale = largest(&self.q) / largest(&u);
+        let measure = &self.dense.measure;
+        self.scale = measure.size(&self.q) / measure.size(&u);
         self.directions = vec![u];
         self.share();
         self.bar(count, speed)?;
@@ -425,7 +452,8 @@ impl<'a> Search<'a> {
             part = if part > 1.0 { part - 0.7 } else { part + 0.6 };
         }
         self.dense.metric.divide_transposed(&mut other);
-        let speed = largest(&self.directions[0]) / largest(&other);
+        let measure = &self.dense.measure;
+        let speed = measure.size(&self.directions[0]) / measure.size(&other);
         other.iter_mut().for_each(|x| *x *= speed);
         let shares = self.shares.clone();
         shares.iter().any(|shares| {

@@ -180,7 +180,8 @@ impl Leaves {
             own_gain,
             ..
         } = &mut compared;
-        // In the middle of the time between the first two it was as fast as it went there on an average; at rest, where nothing came before.
+        // In the middle of the time between the first two it was as fast as it went there on an average; at rest, where nothing came
+        // before.
         let half = match ratio {
             0.0 => 1.0,
             ratio => ratio / (1.0 + ratio),

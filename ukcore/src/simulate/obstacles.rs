@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::Projector;
+use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
@@ -21,6 +22,13 @@ const UNTOLD: f64 = 1e-5;
 
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
+
+/// A velocity below this share of the one that is reached within the size of the coordinates is what rounding leaves of rest.
+const STILL: f64 = 64.0 * f64::EPSILON;
+
+/// A velocity along an acceleration, in units of the one that is reached within the size of the coordinates: what its path asks for
+/// outweighs the forces.
+const FAST: f64 = 4.0;
 
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
 ///
@@ -76,11 +84,13 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     let (mut near_q, mut near_v) = (q.to_vec(), v.to_vec());
     projector.position(t, &mut near_q, v).ok()?;
     projector.velocity(t, &near_q, &mut near_v).ok()?;
+    let measure = Measure::at(&followed, t, [q, v]);
     let change = |old: &[f64], new: &[f64]| {
-        let pairs = old.iter().zip(new);
-        pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
+        let changes: Vec<f64> = old.iter().zip(new).map(|(a, b)| a - b).collect();
+        measure.size(&changes)
     };
-    let position = change(q, &near_q) >= change(v, &near_v);
+    // Where velocities jump, positions are off by no more than what that makes of them within the step.
+    let position = change(q, &near_q) >= 2.0 * (t - t_old).abs() * change(v, &near_v);
     let residual = |t: f64| {
         let mut residual = vec![0.0; spec.m()];
         if position {
@@ -134,13 +144,18 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         row, near, reached, ..
     } = &found;
     let spec = mech.spec();
-    if !crossing::counts(mech, near, *row, found.size) {
+    let lost = crossing::Vanishing {
+        row: *row,
+        size: found.size,
+        scale: &found.scale,
+    };
+    if !crossing::counts(mech, near, lost) {
         return None;
     }
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
-        if let Some(position) = crossing::find(mech, near, Some((*row, found.size))) {
+        if let Some(position) = crossing::find(mech, near, Some(lost)) {
             return Some(Singular {
                 significance: *reached,
                 ..position
@@ -155,7 +170,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             stride: spec.m(),
             rows: spec.m(),
         };
-        if rows.largest(*row) <= RANK_CEILING * found.size {
+        if rows.largest(*row, &found.scale) <= RANK_CEILING * found.size {
             return None;
         }
     }
@@ -173,21 +188,47 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     })
 }
 
+/// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.
+fn size(mechanism: &Prepared, at: Sample<'_>, measure: &Measure) -> f64 {
+    let lengths = || Projector::new(mechanism).length(at.t, at.q, at.v);
+    let sizes = [measure.size(at.q), measure.radian()].into_iter();
+    let mut sizes = sizes.chain(std::iter::once_with(lengths)).chain([1.0]);
+    let good = |size: &f64| *size > 0.0 && size.is_finite();
+    sizes.find(good).unwrap_or(1.0)
+}
+
+/// Whether a motion from `start` can have gone no further than `way` till it got to a state: neither as far as that is off, nor as its
+/// velocity and its acceleration at the start would take it in the time.
+fn has_begun(
+    mechanism: &Prepared,
+    start: Sample<'_>,
+    there: &State,
+    way: f64,
+    measure: &Measure,
+) -> bool {
+    let change: Vec<f64> = there.q.iter().zip(start.q).map(|(a, b)| a - b).collect();
+    let time = (there.t - start.t).abs();
+    let mut acceleration = vec![0.0; start.q.len()];
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
+    // Where there is none the velocity tells alone.
+    if (solver.acceleration(start.t, start.q, start.v, &mut acceleration)).is_err() {
+        acceleration.fill(0.0);
+    }
+    let gone = time * (measure.size(start.v) + 0.5 * time * measure.size(&acceleration));
+    measure.size(&change) <= way && gone <= 2.0 * way
+}
+
 /// The constraints that have no gradient at `start`, or are implied there by the others and not beside it, where a motion that is to leave
 /// `start` as the state of a contradiction says would contradict them: branches cross there, and it goes along none of them. Constraints
 /// that change with time may come apart by themselves.
 fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<String> {
     let spec = mechanism.spec();
-    let size = match largest(start.q) {
-        0.0 => 1.0,
-        size => size,
-    };
-    let mut pairs = start.q.iter().zip(&there.q);
-    let begun = pairs.all(|(a, b)| (a - b).abs() <= BEGUN * size);
-    if !(begun && spec.structure.scleronomic) {
+    let measure = Measure::at(mechanism, start.t, [start.q, start.v]);
+    let size = size(mechanism, start, &measure);
+    if !(spec.structure.scleronomic && has_begun(mechanism, start, there, BEGUN * size, &measure)) {
         return Vec::new();
     }
-    let speed = largest(&there.v);
+    let speed = measure.size(&there.v);
     let way = if speed > 0.0 {
         BEGUN * size / speed
     } else {
@@ -203,7 +244,8 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
             stride: spec.m(),
             rows: spec.m(),
         };
-        (0..spec.holonomic).map(|c| rows.largest(c)).collect()
+        let largest = |c: usize| rows.largest(c, &measure.scale);
+        (0..spec.holonomic).map(largest).collect()
     };
     let pairs = sizes(start.q).into_iter().zip(sizes(&beside));
     let lost = pairs.enumerate().filter(|(_, (a, b))| *a < BEGUN * b);
@@ -211,7 +253,7 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
         .map(|(c, _)| spec.constraints[c].name.to_owned())
         .collect();
     match lost.is_empty() {
-        true => crossing::at(mechanism, start, &there.v, size).unwrap_or_default(),
+        true => crossing::at(mechanism, start, &there.v, size, &measure).unwrap_or_default(),
         false => lost,
     }
 }
@@ -221,7 +263,7 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
 pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Error> {
     let State { t, q, v } = start;
     let spec = mechanism.spec();
-    if spec.m() == 0 || !spec.structure.scleronomic || v.iter().any(|v| *v != 0.0) {
+    if spec.m() == 0 || !spec.structure.scleronomic {
         return None;
     }
     let mut acceleration = vec![0.0; q.len()];
@@ -233,8 +275,18 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
     }
     let mut solver = Solver::new(mechanism, SolverOptions::default());
     solver.acceleration(*t, q, v, &mut acceleration).ok()?;
+    let measure = Measure::at(mechanism, *t, [q, v]);
+    let (most, size) = (
+        measure.size(&acceleration),
+        size(mechanism, start.into(), &measure),
+    );
+    let rests = measure.size(v) <= STILL * (size * most).sqrt();
+    if !(rests && most > 0.0) {
+        return None;
+    }
+    let time = FAST * (size / most).sqrt();
     let there = State {
-        v: acceleration.clone(),
+        v: acceleration.iter().map(|a| a * time).collect(),
         ..start.clone()
     };
     let along = solver.acceleration(*t, q, &there.v, &mut acceleration);

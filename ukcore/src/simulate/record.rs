@@ -80,8 +80,8 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 
-    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of what
-    /// is allowed: if that is above 1, nothing is taken either.
+    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of
+    /// what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let taken = self.agenda.taken();
         let trajectory = &self.trajectory;

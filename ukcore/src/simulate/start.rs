@@ -9,6 +9,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
+use crate::measure::Measure;
 use crate::scan::largest;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
@@ -95,13 +96,14 @@ impl Simulation {
         }
         let tolerance = self.tolerance_of(size);
         let absolute = tolerance.absolute;
-        if !near(&q, &new_q, absolute) {
+        let measure = Measure::at(mech, t, [&new_q, &v]);
+        if !near([&q, &new_q], absolute, &measure) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
             return Err(off_constraint(spec, "position", &residual));
         }
         let velocity = projector.velocity(t, &new_q, &mut new_v)?;
-        if !near(&v, &new_v, absolute) {
+        if !near([&v, &new_v], absolute, &measure) {
             let mut residual = vec![0.0; spec.m()];
             mech.residual_rate(t, &new_q, &v, &mut residual);
             return Err(off_constraint(spec, "velocity", &residual));
@@ -124,10 +126,10 @@ impl Simulation {
 }
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
-fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
-    let bound = START_BOUND * largest(before) + absolute;
-    let mut pairs = before.iter().zip(after);
-    pairs.all(|(before, after)| (after - before).abs() <= bound)
+fn near([before, after]: [&[f64]; 2], absolute: f64, measure: &Measure) -> bool {
+    let size = START_BOUND * measure.size(before);
+    let mut pairs = before.iter().zip(after).zip(&measure.scale);
+    pairs.all(|((before, after), unit)| (after - before).abs() <= size * unit + absolute)
 }
 
 fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {

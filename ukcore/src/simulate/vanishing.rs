@@ -3,7 +3,8 @@
 //! Such a row says nothing there of the motion, and its direction is reversed behind the place: along a smooth motion it goes through zero.
 //! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
 //! from it by their length on the way. A row with an entry that stays as it is never vanishes, however small that is beside others, in
-//! whatever units. Rows are looked at before any of them can have changed by half of itself; that is at each step only where steps are long.
+//! whatever units. Rows are looked at before any of them can have changed by half of itself; that is at each step only where steps are
+//! long.
 //!
 //! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
 //! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
@@ -13,6 +14,7 @@ use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
 use crate::integrate::Method;
 use crate::integrate::sample::Sample;
+use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::pinv::dot;
 use crate::zero::locate;
@@ -55,8 +57,9 @@ pub(super) enum Loss {
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
     pub(super) row: usize,
-    /// Its greatest length so far.
+    /// Its greatest length so far, measured by this scale.
     pub(super) size: f64,
+    pub(super) scale: Vec<f64>,
     /// A state of the motion near the place.
     pub(super) near: State,
     /// When the row is least, and what it is then as a share of what it is at both ends of the step.
@@ -74,6 +77,8 @@ pub(super) struct RowWatch {
     /// The greatest length of each so far.
     sizes: Vec<f64>,
     leaves: Leaves,
+    /// What makes entries of A comparable: that of the state where the run began.
+    measure: Option<Measure>,
     /// Rows that may vanish: those without an entry that stays as it is.
     may: Vec<bool>,
     /// A where the run began.
@@ -121,13 +126,16 @@ impl Default for Matrix {
 }
 
 impl Matrix {
-    /// Takes A at a state. Returns whether it was not known there.
-    fn take(&mut self, mech: &Prepared, at: Sample<'_>) -> bool {
+    /// Takes A at a state, measured. Returns whether it was not known there.
+    fn take(&mut self, mech: &Prepared, at: Sample<'_>, measure: Option<&Measure>) -> bool {
         let unknown = self.t != at.t;
         if unknown {
             self.t = at.t;
             self.entries.resize(at.q.len() * mech.spec().m(), 0.0);
             mech.jacobian(at.t, at.q, at.v, &mut self.entries);
+            if let Some(measure) = measure {
+                measure.weigh(&mut self.entries);
+            }
         }
         unknown
     }
@@ -148,8 +156,8 @@ impl Matrix {
 }
 
 impl RowWatch {
-    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to imply
-    /// each other, combinations of rows are not looked at.
+    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to
+    /// imply each other, combinations of rows are not looked at.
     pub(super) fn new(method: Method, tolerance: f64) -> Self {
         RowWatch {
             together: method != Method::Dop853 || tolerance > CLOSE,
@@ -157,8 +165,8 @@ impl RowWatch {
         }
     }
 
-    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step on
-    /// which a combination of rows does.
+    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step
+    /// on which a combination of rows does.
     pub(super) fn vanishing(
         &mut self,
         mech: &Prepared,
@@ -175,7 +183,7 @@ impl RowWatch {
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
             self.left = [1.0; 2];
         }
-        self.here.take(mech, new);
+        self.here.take(mech, new, self.measure.as_ref());
         self.compare(mech);
         let reversed = self.reversed().next().is_some() || self.share == 0.0;
         if reversed && self.look_back(mech, old) {
@@ -211,14 +219,15 @@ impl RowWatch {
         let Ok(part) = locate(turned, 0.0, 1.0);
         let state = between_states(old, new, part);
         let mut between = Matrix::default();
-        between.take(mech, Sample::from(&state));
+        let measure = self.measure.as_ref();
+        between.take(mech, Sample::from(&state), measure);
         between.measure(&self.leaves);
         let found = self.smallest(&between, Sample::from(&state))?;
         let row = found.row;
         let mut ends = [0.0; 2];
         for (length, at) in ends.iter_mut().zip([old, new]) {
             let mut end = Matrix::default();
-            end.take(mech, at);
+            end.take(mech, at, measure);
             end.measure(&self.leaves);
             *length = end.length(row);
         }
@@ -260,7 +269,7 @@ impl RowWatch {
                 return Some(Loss::Rank { states, whole });
             }
             let middle = 0.5 * (from + to);
-            between.take(mech, Sample::from(&at(middle)));
+            between.take(mech, Sample::from(&at(middle)), self.measure.as_ref());
             let c = between.entries.clone();
             let left = independence.left(&c);
             if left < least.0 {
@@ -277,7 +286,10 @@ impl RowWatch {
 
     /// Takes A at the start of the step in hand, if it is not known there.
     fn look_back(&mut self, mech: &Prepared, old: Sample<'_>) -> bool {
-        let unknown = self.seen.take(mech, old);
+        let measure = self
+            .measure
+            .get_or_insert_with(|| Measure::at(mech, old.t, [old.q, old.v]));
+        let unknown = self.seen.take(mech, old, Some(measure));
         if self.leaves.is_empty() {
             self.leaves = Leaves::new(mech, &self.seen.entries);
             self.first.clone_from(&self.seen.entries);
@@ -296,9 +308,9 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let [seen, here] = [&self.seen.entries[..], &self.here.entries];
         let (squares, products) = (&mut self.here.squares, &mut self.products);
-        // Where nothing came before, as from rest: the change from there is all there is of it.
+        // Where nothing came before, as from rest, or the run has gone back since: the change from there is all there is of it.
         let ratio = (self.here.t - self.seen.t) / (self.seen.t - self.past.t);
-        let (past, ratio) = match ratio.is_finite() {
+        let (past, ratio) = match ratio > 0.0 && ratio.is_finite() {
             true => (&self.past.entries[..], ratio),
             false => (seen, 0.0),
         };
@@ -330,12 +342,24 @@ impl RowWatch {
         Some(Vanishing {
             row,
             size: self.sizes[row],
+            scale: self.scale(),
             near: here.to_state(),
             t: here.t,
             least,
             reached: least,
             rest: false,
         })
+    }
+
+    /// When rows are looked at next.
+    #[cfg(test)]
+    pub(super) fn due(&self) -> f64 {
+        self.due
+    }
+
+    fn scale(&self) -> Vec<f64> {
+        let measure = self.measure.as_ref();
+        measure.map_or_else(Vec::new, |measure| measure.scale.clone())
     }
 
     /// The run has got to the time `t`.
@@ -396,21 +420,24 @@ impl RowWatch {
         new: Sample<'_>,
     ) -> Option<Vanishing> {
         let mut between = Matrix::default();
+        let measure = self.measure.as_ref();
         let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
-            between.take(mech, Sample::from(&between_states(old, new, part)));
+            let state = between_states(old, new, part);
+            between.take(mech, Sample::from(&state), measure);
             between.squares.resize(self.sizes.len(), 0.0);
             let pairs = between.row(c).zip(self.seen.row(c).zip(self.here.row(c)));
             Ok(pairs.map(|(x, (a, b))| x * (b - a)).sum())
         };
         let Ok(part) = locate(turned, 0.0, 1.0);
         let state = between_states(old, new, part);
-        between.take(mech, Sample::from(&state));
+        between.take(mech, Sample::from(&state), measure);
         between.measure(&self.leaves);
         let ends = self.seen.length(c).min(self.here.length(c));
         let least = between.length(c) / ends;
         (least < DIP).then(|| Vanishing {
             row: c,
             size: self.sizes[c],
+            scale: self.scale(),
             near: between_states(old, new, (part - BEFORE).max(0.0)),
             t: state.t,
             least,

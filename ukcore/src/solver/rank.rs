@@ -14,16 +14,17 @@ impl Solver {
             self.dense.cod.set_rank(clear);
             self.measure_drift(t, q, v);
             let there = self.drift.there.rows();
-            let here = self.here.rows();
+            let (here, scale) = (self.here.rows(), &self.dense.measure.scale);
             for c in 0..self.m {
-                let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
+                let change = here.row(c).zip(there.row(c)).zip(scale);
+                let change = change.map(|((a, b), s)| ((a - b) * s).abs());
                 // Not finite: no state worth the name is near.
                 let change = change.fold(0.0, |s: f64, x| match x.is_finite() {
                     true => s.max(x),
                     false => f64::INFINITY,
                 });
                 if change > 0.0 {
-                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));
+                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c, scale));
                 }
             }
             tolerance = tolerance.min(RANK_CEILING);

@@ -27,8 +27,9 @@ pub(super) struct Known {
     /// Whether there was one, with the parameters of now.
     pub(super) valid: bool,
     jacobian: Vec<f64>,
-    /// Of each row, how much its entries may change.
+    /// Of each row, how much its entries may change, measured; and what columns are measured by.
     slack: Vec<f64>,
+    scale: Vec<f64>,
 }
 
 impl Known {
@@ -37,6 +38,7 @@ impl Known {
             valid: false,
             jacobian: vec![0.0; m * n],
             slack: vec![0.0; m],
+            scale: vec![1.0; n],
         }
     }
 }
@@ -51,9 +53,10 @@ impl Solver {
         if self.known.valid {
             // Singular values of A with rows of length 1 change by no more than √m times the largest change of a row.
             let share = (weakest - RANK_CEILING) / (2.0 * (self.m as f64).sqrt());
-            let a = self.here.rows();
+            let (a, scale) = (self.here.rows(), &self.dense.measure.scale);
             let slack = self.known.slack.iter_mut().enumerate();
-            slack.for_each(|(c, slack)| *slack = share * a.largest(c));
+            slack.for_each(|(c, slack)| *slack = share * a.largest(c, scale));
+            self.known.scale.copy_from_slice(scale);
             self.known.jacobian.copy_from_slice(&self.here.jacobian);
         }
     }
@@ -71,12 +74,12 @@ impl Solver {
         }
         let (a, known) = (&self.here.jacobian, &self.known);
         let columns = a.chunks_exact(self.m);
-        let mut columns = columns.zip(known.jacobian.chunks_exact(self.m));
-        let near = columns.all(|(here, there)| {
+        let columns = columns.zip(known.jacobian.chunks_exact(self.m));
+        let near = columns.zip(&known.scale).all(|((here, there), scale)| {
             let entries = here.iter().zip(there).zip(&known.slack);
             // Without branches.
             entries.fold(true, |near, ((a, b), slack)| {
-                near & ((a - b).abs() <= *slack)
+                near & (((a - b) * scale).abs() <= *slack)
             })
         });
         if !near {

@@ -10,6 +10,7 @@ use super::hub::{Divided, divided};
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, Map, System};
+use std::collections::BTreeSet;
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -213,32 +214,37 @@ fn variants(
     if let Some(lift) = &held.lift {
         let opened = opened(held, lift, &system.defaults, g);
         let lift = opened.as_ref().unwrap_or(lift);
-        let turned = turned(
-            held,
-            lift,
-            &regular.rows,
-            &regular.redundant,
-            &system.defaults,
-            g,
-        );
-        let (dynamics, turned) = turned.unwrap_or_else(|| {
-            let (mass, force) = (&regular.added, &regular.pulled);
-            let extended = lift.extended(&regular.dynamics, mass, force, g);
-            (extended, Turned::default())
-        });
         let velocities = lift.velocities().enumerate();
         let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
             Some(name) => name.clone(),
             None => format!("velocity_{k}"),
         });
         let velocities: Vec<String> = velocities.collect();
-        variants.push(Variant {
-            dynamics,
-            names: with(&velocities),
-            further: Further::Velocities,
-            copies: Vec::new(),
-            turned,
-        });
+        let mut push = |(dynamics, turned)| {
+            variants.push(Variant {
+                dynamics,
+                names: with(&velocities),
+                further: Further::Velocities,
+                copies: Vec::new(),
+                turned,
+            });
+        };
+        let (rows, redundant, defaults) = (&regular.rows, &regular.redundant, &system.defaults);
+        let of = |before: &_, g: &mut _| turned(held, lift, rows, redundant, before, defaults, g);
+        match of(&BTreeSet::new(), g) {
+            Some(turned) => {
+                let before = turned.1.cheaper_before();
+                push(turned);
+                if !before.is_empty() {
+                    of(&before, g).into_iter().for_each(push);
+                }
+            }
+            None => {
+                let (mass, force) = (&regular.added, &regular.pulled);
+                let extended = lift.extended(&regular.dynamics, mass, force, g);
+                push((extended, Turned::default()));
+            }
+        }
     }
     if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
         let more = copies.iter().enumerate();

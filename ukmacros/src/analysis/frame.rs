@@ -12,6 +12,7 @@
 //! where the constraint prescribes the first of x, each definition gives one of the others, and RᵀMR is the inertia that T is written with.
 //! M knows nothing of the length of a quaternion; here nothing has to be added to it.
 
+use super::cost::cost;
 use super::dynamics::Dynamics;
 use super::joint::{Joint, joints};
 use super::lift::Lift;
@@ -37,6 +38,19 @@ pub(crate) struct Frame {
     columns: Vec<Vec<Id>>,
     /// What other constraints have of the first of x, which is given, times |a|².
     given: Vec<(usize, Id)>,
+    /// Whether the vectors are divided by the squares of their lengths before they meet the rows of others, and whether that would take
+    /// fewer operations for these rows. What is made of them may take more.
+    before: bool,
+    fewer_before: bool,
+}
+
+/// A row of another constraint.
+struct Row {
+    at: usize,
+    /// Its function, if it is the derivative of one.
+    phi: Option<Id>,
+    /// What it has of the coordinates.
+    entries: Vec<Id>,
 }
 
 impl Frame {
@@ -83,28 +97,47 @@ impl Frame {
         g.factored_sum(&products)
     }
 
-    /// Rᵀ u for the `entries` u of a row, each as one value; of the first, which is given, that times |a|². A row of `phi` has them by its
-    /// derivatives `along` the vectors: functions of the frame are differentiated once for all they stand in.
-    fn slopes(
-        &self,
-        phi: Option<Id>,
-        entries: &[Id],
-        along: &mut [Derivative],
-        g: &mut Graph,
-    ) -> Vec<Id> {
-        let vectors = self.vectors.iter().zip(along).enumerate();
-        let slopes = vectors.map(|(k, ((vector, square), along))| {
-            let slope = match phi {
-                Some(phi) => along.of(phi, g),
-                None => g.inner(vector, entries),
-            };
-            if k == 0 {
-                return slope;
-            }
-            let slope = g.div(slope, *square);
-            g.hold_all(slope)
+    /// Rᵀ u for the entries u of `rows`, each as one value; of the first, which is given, that times |a|². A row of a φ has them by its
+    /// derivatives along the vectors: functions of the frame are differentiated once for all they stand in. What is divided by the squares
+    /// of lengths is the results, or the vectors `before`: that costs less where few functions are in many rows.
+    fn slopes(&self, rows: &[Row], before: bool, g: &mut Graph) -> Vec<Vec<Id>> {
+        let symbols = self.coordinates.iter().map(|i| g.symbol(Symbol::Coord(*i)));
+        let symbols: Vec<Id> = symbols.collect();
+        let vectors = self.vectors.iter().zip(&self.columns).enumerate();
+        let vectors: Vec<(&Vec<Id>, Option<Id>)> = vectors
+            .map(|(k, ((vector, square), column))| match k {
+                0 => (vector, None),
+                _ if before => (column, None),
+                _ => (vector, Some(*square)),
+            })
+            .collect();
+        let along = vectors.iter().map(|(vector, _)| {
+            let direction = symbols.iter().copied().zip(vector.iter().copied());
+            Derivative::along(direction.collect())
         });
-        slopes.collect()
+        let mut along: Vec<Derivative> = along.collect();
+        let mut of_row = |row: &Row| {
+            let vectors = vectors.iter().zip(&mut along);
+            let slopes = vectors.map(|((vector, square), along)| {
+                let slope = match row.phi {
+                    Some(phi) => along.of(phi, g),
+                    None => g.inner(vector, &row.entries),
+                };
+                let Some(square) = square else { return slope };
+                let slope = g.div(slope, *square);
+                g.hold_all(slope)
+            });
+            slopes.collect()
+        };
+        rows.iter().map(&mut of_row).collect()
+    }
+
+    /// Whether `slopes` of `rows` take fewer operations with vectors divided before.
+    fn fewer_before(&self, rows: &[Row], slopes: &[Vec<Id>], g: &Graph) -> bool {
+        // What is not taken leaves no trace in the order of nodes.
+        let mut tried = g.clone();
+        let others = self.slopes(rows, true, &mut tried);
+        cost(&tried, &others.concat()).work() < cost(g, &slopes.concat()).work()
     }
 
     /// Puts ë = R x in the place of x.
@@ -156,27 +189,39 @@ impl Frame {
             rows.remove(&row);
             d.jacobian.insert((row, *i), one);
         }
-        let symbols = self.coordinates.iter().map(|i| g.symbol(Symbol::Coord(*i)));
-        let symbols: Vec<Id> = symbols.collect();
-        let along = self.vectors.iter().map(|(vector, _)| {
-            let direction = symbols.iter().copied().zip(vector.iter().copied());
-            Derivative::along(direction.collect())
+        // Rows that may be left out stay as exact as they are: what is left of them tells whether they are.
+        let (apart, rows): (Vec<_>, Vec<_>) = rows
+            .into_iter()
+            .partition(|(row, _)| redundant.contains(row));
+        for (row, entries) in apart {
+            let turned = self.across(&entries, g);
+            self.enter(row, turned, d, g);
+        }
+        let rows = rows.into_iter().map(|(at, entries)| Row {
+            at,
+            phi: d.phi.get(at).copied(),
+            entries,
         });
-        let mut along: Vec<Derivative> = along.collect();
-        for (row, entries) in rows {
-            // Rows that may be left out stay as exact as they are: what is left of them tells whether they are.
-            let apart = redundant.contains(&row);
-            let turned = match apart {
-                true => self.across(&entries, g),
-                false => self.slopes(d.phi.get(row).copied(), &entries, &mut along, g),
-            };
-            let places = self.coordinates.iter().zip(turned);
-            let mut places = places.filter(|(_, a)| !g.is_zero(*a)).peekable();
-            let first = places.next_if(|(i, _)| **i == self.coordinates[0] && !apart);
-            self.given.extend(first.map(|(_, a)| (row, a)));
-            d.jacobian.extend(places.map(|(i, a)| ((row, *i), a)));
+        let rows: Vec<Row> = rows.collect();
+        let slopes = self.slopes(&rows, self.before, g);
+        self.fewer_before =
+            !rows.is_empty() && !self.before && self.fewer_before(&rows, &slopes, g);
+        for (row, mut turned) in rows.iter().zip(slopes) {
+            let first = turned[0];
+            if !g.is_zero(first) {
+                self.given.push((row.at, first));
+                turned[0] = zero;
+            }
+            self.enter(row.at, turned, d, g);
         }
         self.take_off(&mut d.rhs, g);
+    }
+
+    /// The entries of a row are those `turned` now.
+    fn enter(&self, row: usize, turned: Vec<Id>, d: &mut Dynamics, g: &Graph) {
+        let places = self.coordinates.iter().zip(turned);
+        let places = places.filter(|(_, a)| !g.is_zero(*a));
+        d.jacobian.extend(places.map(|(i, a)| ((row, *i), a)));
     }
 }
 
@@ -192,6 +237,12 @@ impl Turned {
     /// Whether nothing is.
     pub(crate) fn is_empty(&self) -> bool {
         self.frames.is_empty()
+    }
+
+    /// The constraints of frames that may cost less with vectors divided before.
+    pub(crate) fn cheaper_before(&self) -> BTreeSet<usize> {
+        let frames = self.frames.iter().filter(|frame| frame.fewer_before);
+        frames.map(Frame::row).collect()
     }
 
     /// The constraints that are solved for rates.
@@ -215,17 +266,20 @@ impl Turned {
 }
 
 /// The equations `d` with the velocities of `lift`, in the rates of all frames that are found, with these. Nothing if there are none, or if
-/// not all constraints in `regular` are theirs: what these add to M is in the coordinates as they were. `defaults` are those of the
-/// parameters.
+/// not all constraints in `regular` are theirs: what these add to M is in the coordinates as they were. Frames of the constraints in
+/// `before` divide their vectors before. `defaults` are those of the parameters.
 pub(crate) fn turned(
     d: &Dynamics,
     lift: &Lift,
     regular: &[usize],
     redundant: &BTreeSet<usize>,
+    before: &BTreeSet<usize>,
     defaults: &[f64],
     g: &mut Graph,
 ) -> Option<(Dynamics, Turned)> {
     let mut frames = frames(d, lift, defaults, g);
+    let all = frames.iter_mut();
+    all.for_each(|frame| frame.before = before.contains(&frame.row));
     let own = |row: &usize| frames.iter().any(|frame| frame.row == *row);
     if frames.is_empty() || !regular.iter().all(own) {
         return None;
@@ -300,6 +354,8 @@ fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Fra
             row,
             definitions: own,
             given: Vec::new(),
+            before: false,
+            fewer_before: false,
         });
     }
     found

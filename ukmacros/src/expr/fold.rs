@@ -107,6 +107,15 @@ impl Graph {
         }
         let mut collected = collected.list;
         collected.retain(|(_, c)| *c != 0.0);
+        // sin² u + cos² u is 1: what does not turn with a body is the same at all states.
+        if let Some(([a, b], c)) = self.squares_of_an_angle(&collected) {
+            collected[a].0 = c;
+            collected.swap_remove(b);
+            let one = self.one();
+            let terms = collected.iter().map(|(id, k)| (*k, *id));
+            let terms: Vec<(f64, Id)> = terms.chain([(constant, one)]).collect();
+            return self.sum(&terms);
+        }
         collected.sort_by_key(|(id, _)| *id);
         match collected.as_slice() {
             [] => return self.constant(constant),

@@ -4,7 +4,7 @@
 //! sign′ is 0; min and max take the branch of the smaller (larger) argument, the first at a tie. sqrt′ is unbounded at 0, asin′, acos′
 //! and atanh′ at ±1, acosh′ at 1, ln′ and negative powers at 0, atan2′ and hypot′ at (0, 0): there the result is not finite.
 
-use super::graph::{Graph, Id};
+use super::graph::{Graph, Id, Node};
 use super::jet::Jet;
 
 /// What a function is, and how it is differentiated and computed.
@@ -283,5 +283,38 @@ impl Func {
             Exact::Always => self.value(x, y),
         };
         (!value.is_nan()).then_some(value)
+    }
+}
+
+impl Graph {
+    /// Two of the `terms` that are k c cos² u and k c sin² u, and c.
+    pub(super) fn squares_of_an_angle(&mut self, terms: &[(Id, f64)]) -> Option<([usize; 2], Id)> {
+        for (a, (id, k)) in terms.iter().enumerate() {
+            let Node::Product(factors) = self.node(*id) else {
+                continue;
+            };
+            for (at, (base, _)) in factors.iter().enumerate().filter(|(_, (_, e))| *e == 2) {
+                let sin = match self.node(*base) {
+                    Node::Call(Func::Cos, args) => self.find_call(Func::Sin, args[0]),
+                    _ => None,
+                };
+                let Some(sin) = sin else { continue };
+                let mut others = factors.to_vec();
+                others[at].0 = sin;
+                let alike = |(id, own): &(Id, f64)| match self.node(*id) {
+                    Node::Product(factors) => {
+                        own == k
+                            && factors.len() == others.len()
+                            && factors.iter().all(|f| others.contains(f))
+                    }
+                    _ => false,
+                };
+                if let Some(b) = terms.iter().position(alike) {
+                    others.remove(at);
+                    return Some(([a, b], self.product(&others)));
+                }
+            }
+        }
+        None
     }
 }

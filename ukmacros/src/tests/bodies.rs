@@ -352,4 +352,14 @@ cases! {
     nothing_in_a_body: "bodies { planar «a» { } }" => "coordinates `a.x`, `a.y`, `a.angle` have neither mass nor constraint";
     semicolon_in_a_body: "bodies { planar a { mass: 1«;» inertia: 1 } }" => "expected identifier";
     equals_in_a_body: "bodies { planar a { mass «=» 1, inertia: 1 } }" => "expected `:`";
+    unknown_part_of_a_body: "bodies { planar a { mass: 1, «colour»: 1, inertia: 1 } }" => "a body has no `colour`; it has `mass`, `inertia` and `centre`";
+    nothing_of_a_body: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: a.«colour» }" => "body `a` has no `colour`; it has `x`, `y`, `angle`";
+    planar_and_spatial_members: "bodies { for i in 0..1 { planar a[i] { mass: 1, inertia: 1 } } for i in 1..2 { spatial «a»[i] { mass: 1, inertia: [1, 1, 1] } } }" => "`a` is declared planar and spatial; rename one";
+    too_few_indices_of_a_body: "bodies { planar a[2][2] { mass: 1, inertia: 1 } } output { o = «a»[0].angle }" => "`a` is a family of bodies; choose a member, `a[0][0]` to `a[1][1]`";
+    arguments_of_a_spring: "bodies { planar a { mass: 1, inertia: 1 } } forces { «spring»(ground.at([0, 0]), a.at([0, 0])) }" => "it is written `spring(p, q, k, l)`, found 2 arguments";
+    torque_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } forces { torque(a, «[1, 2]») }" => "is a number, found a vector of 2";
+    torque_on_a_number: "bodies { planar a { mass: 1, inertia: 1 } } forces { torque(«a.angle», 1) }" => "is a body, found a number";
+    radius_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: gear(ground, a, 1, «[1, 2]») }" => "is a number, found a vector of 2";
+    rolling_in_the_plane: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rolls»(a.at([0, 0]), [0, 1], 1) }" => "`rolls` joins spatial bodies: `rolls(q, u, r)`; these are in the plane";
+    unknown_joint: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pinn»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `pinn`; did you mean `pin`?";
 }

@@ -125,3 +125,91 @@ fn coupled_four_bars_cost_what_their_null_space_costs() {
     assert!(forty <= 3450, "{twenty}, {forty}");
     assert!(100 * forty <= 205 * twenty, "{twenty}, {forty}");
 }
+
+/// Operations of M, Q, c, A and b, and of q̈ by straight line.
+fn both(text: &str) -> [usize; 2] {
+    let costs = analysis(text.parse().expect("tokens")).costs;
+    [costs.dynamics, costs.acceleration].map(|costs| costs.counts().iter().sum())
+}
+
+/// What the catalogue declares by bodies and joints costs what it costs in places and angles whose T and equations are written out, within a
+/// twentieth.
+#[track_caller]
+fn assert_as_by_hand(by_bodies: &str, by_hand: &str) {
+    let [bodies, hand] = [both(by_bodies), both(by_hand)];
+    for (bodies, hand) in bodies.iter().zip(hand) {
+        assert!(
+            20 * bodies.abs_diff(hand) <= hand,
+            "{bodies}, by hand {hand}"
+        );
+    }
+}
+
+/// The point `d` of a body in axes of its own, from its centre, by its place and angle.
+const POINT: &str = "let point = |q, d| [q[0] + cos(q[2]) * d[0] - sin(q[2]) * d[1], q[1] + sin(q[2]) * d[0] + cos(q[2]) * d[1]];";
+
+/// The declaration in the text of a file of the catalogue, and what it begins with, up to its bodies.
+fn catalogued(text: &str) -> (String, String) {
+    let (_, text) = text.split_once("ukcore::multibody! {").expect("a macro");
+    let (_, text) = text.split_once("pub ").expect("a declaration");
+    // Neither counts; and the start is in bodies.
+    let (text, _) = text.split_once("output {").expect("outputs");
+    let (head, _) = text.split_once("bodies {").expect("bodies");
+    (format!("pub {text} }}"), format!("pub {head}"))
+}
+
+#[test]
+fn andrews_mechanism_costs_as_bodies_what_it_costs_by_hand() {
+    let text = include_str!("../../../models/catalogue/src/andrews.rs");
+    let (bodies, head) = catalogued(text);
+    let by_hand = format!(
+        "{head} coords {{ q[7][3] }} {POINT} let at = |n, p| point(q[n], p - centre[n]); \
+         mass {{ for n in 0..7 {{ q[n][0]: m[n], q[n][1]: m[n], q[n][2]: i[n] }} }} \
+         let end = [at(1, [-d, 0]), at(2, [0, -ss]), at(3, [0, -e]), at(5, [zf, 0])]; \
+         holonomic {{ o: at(0, [0, 0]) = 0; f: at(1, [0, 0]) = at(0, [rr, 0]); b3: at(2, [0, 0]) = b; a5: at(4, [0, 0]) = a; \
+         h: at(3, [0, 0]) = at(4, [zt, 0]); a7: at(6, [0, 0]) = a; g: at(5, [0, 0]) = at(6, [0, -u]); \
+         for n in 1..4 {{ e0[n - 1]: end[n] - end[0] = 0 }} }} \
+         potential {{ 0.5 * c0 * sq(norm(at(2, [sd, -sc]) - c) - l0) }} force {{ q[0][2]: mom }} }}"
+    );
+    assert_as_by_hand(&bodies, &by_hand);
+}
+
+#[test]
+fn jansens_legs_cost_as_bodies_what_they_cost_by_hand() {
+    let text = include_str!("../../../models/catalogue/src/jansen.rs");
+    for (pairs, sides) in [("1", "1"), ("3", "2")] {
+        let text = text.replace("$(#[$doc])*", "").replace("$name", "Legs");
+        let text = text.replace("$pairs;", &format!("{pairs};"));
+        let (bodies, head) = catalogued(&text.replace("$sides;", &format!("{sides};")));
+        let by_hand = format!(
+            "{head} coords {{ shaft_at[3], q[PAIRS][SIDES][6][3] }} {POINT} \
+             let middles = |s| [[j / 2, 0], [k / 2, 0], [c / 2, 0], [f / 2, 0], middle([b, 0], outer(s)), middle([g, 0], toe(s))]; \
+             let masses = |s| rho * [j, k, c, f, round([b, 0], outer(s)), round([g, 0], toe(s))]; \
+             let inertias = |s| rho * [j.powi(3) / 12, k.powi(3) / 12, c.powi(3) / 12, f.powi(3) / 12, \
+             turning([b, 0], outer(s), middle([b, 0], outer(s))), turning([g, 0], toe(s), middle([g, 0], toe(s)))]; \
+             let at = |n, s, body, p| point(q[n][s][body], p - middles(s)[body]); let pin = |n| point(shaft_at, throw(n)); \
+             mass {{ shaft_at[0]: 1, shaft_at[1]: 1, shaft_at[2]: shaft; for n in 0..PAIRS {{ for s in 0..SIDES {{ for body in 0..6 {{ \
+             q[n][s][body][0]: masses(s)[body], q[n][s][body][1]: masses(s)[body], q[n][s][body][2]: inertias(s)[body] }} }} }} }} \
+             potential {{ gravity * shaft_at[1]; for n in 0..PAIRS {{ for s in 0..SIDES {{ for body in 0..6 {{ \
+             gravity * masses(s)[body] * q[n][s][body][1] }} }} }} }} \
+             force {{ shaft_at[2]: torque - drag * dot(shaft_at[2]) }} \
+             holonomic {{ bearing: point(shaft_at, [0, 0]) = 0; for n in 0..PAIRS {{ for s in 0..SIDES {{ \
+             throw_j[n][s]: at(n, s, 0, [0, 0]) = pin(n); throw_k[n][s]: at(n, s, 1, [0, 0]) = pin(n); \
+             hip_b[n][s]: at(n, s, 4, [0, 0]) = hip(s); hip_c[n][s]: at(n, s, 2, [0, 0]) = hip(s); \
+             knee[n][s]: at(n, s, 4, [b, 0]) = at(n, s, 0, [j, 0]); back[n][s]: at(n, s, 3, [0, 0]) = at(n, s, 4, outer(s)); \
+             low_k[n][s]: at(n, s, 5, [0, 0]) = at(n, s, 1, [k, 0]); low_c[n][s]: at(n, s, 5, [0, 0]) = at(n, s, 2, [c, 0]); \
+             heel[n][s]: at(n, s, 5, [g, 0]) = at(n, s, 3, [f, 0]) }} }} }} }}"
+        );
+        assert_as_by_hand(&bodies, &by_hand);
+    }
+}
+
+/// Functions of one frame stand in all six rows: dividing its vectors before costs less than dividing what all rows have of them.
+#[test]
+fn platforms_on_legs_share_what_is_divided() {
+    let text = include_str!("../../../models/catalogue/src/stewart.rs");
+    let (_, text) = text.split_once("ukcore::multibody! {").expect("a macro");
+    let (text, _) = text.split_once("\n}\n").expect("its end");
+    let work = operations(text.parse().expect("tokens"));
+    assert!(work <= 2000, "{work}");
+}

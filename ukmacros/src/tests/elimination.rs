@@ -346,12 +346,19 @@ impl Tally {
                 Turned::default(),
             )
         });
-        let turned = lift
-            .and_then(|lift| turned(&dynamics, lift, &[], &BTreeSet::new(), &system.defaults, g));
+        // With the results divided by the squares of lengths, and with the vectors divided before.
+        let (none, all) = (BTreeSet::new(), (0..own.1).collect());
+        let turned: Vec<_> = lift
+            .into_iter()
+            .flat_map(|lift| [&none, &all].map(|before| (lift, before)))
+            .filter_map(|(lift, before)| {
+                turned(&dynamics, lift, &[], &none, before, &system.defaults, g)
+            })
+            .collect();
         // M knows nothing of the length of a quaternion: as it stands it is singular.
-        let forms = match turned {
-            Some(turned) => vec![turned],
-            None => [(dynamics.clone(), Turned::default())]
+        let forms = match turned.is_empty() {
+            false => turned,
+            true => [(dynamics.clone(), Turned::default())]
                 .into_iter()
                 .chain(extended)
                 .collect(),
@@ -525,6 +532,7 @@ fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
         &dynamics,
         lift,
         &[],
+        &BTreeSet::new(),
         &BTreeSet::new(),
         &system.defaults,
         &mut system.graph,

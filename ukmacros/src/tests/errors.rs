@@ -214,6 +214,14 @@ cases! {
     double_star_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x * «*»2.0 = 1.0 }" => "`**` is not a power in Rust";
     remainder: "coords { x } mass { x: 1.0 } force { x: x «%» 2.0 }" => "`%` cannot be differentiated";
     comparison: "coords { x } mass { x: 1.0 } force { x: x «<» 2.0 }" => "no comparisons";
+    not: "coords { x } mass { x: 1.0 } force { x: «!x» }" => "`!` has no meaning in an equation";
+    operator_of_bits: "coords { x } mass { x: 1.0 } force { x: x «&» 2.0 }" => "this operator has no meaning in an equation; use `+ - * /`";
+    call_of_a_number: "coords { x } mass { x: 1.0 } force { x: «(2.0)»(x) }" => "only a function's name can be called, such as `sin(x)`";
+    type_argument: "coords { x } mass { x: 1.0 } force { x: x.powi«::<f64>»(2) }" => "a function takes no type arguments here";
+    loop_in_an_equation: "coords { x } mass { x: 1.0 } force { x: «loop { }» }" => "not an equation's expression; allowed are numbers, names";
+    large_integer: "coords { x } mass { x: 1.0 } force { x: «99999999999999999999» }" => "integer is too large; write it as a float";
+    large_number: "coords { x } mass { x: 1.0 } force { x: «1e999» }" => "number is too large for an `f64`";
+    function_with_an_index: "coords { x } mass { x: 1.0 } let { for i in 0..2 { f[i] = |u| «i * u» } } output { o = x }" => "a function cannot be indexed; pass the index as an argument";
     double_equals: "coords { x } mass { x: 1.0 } holonomic { c: «x == 1.0» }" => "a constraint is an equation: `lhs = rhs`";
     branch: "coords { x } mass { x: 1.0 } force { x: «if x { 1.0 } else { 2.0 }» }" => "no branches in an equation";
     two_equals: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = y «=» 1.0 }" => "an equation has one `=`";
@@ -233,6 +241,7 @@ cases! {
     friction_the_other_way_round: "coords { x } mass { x: 1.0 } nonideal { x: «friction(2.0, dot(x))» }" => "`friction` takes a velocity, made with `dot` or of a body, and a number";
     reaction_of_a_joint_of_the_tree: "bodies { planar a { mass: 1.0, inertia: 1.0 } } tree { p: pin(ground.at([0, 0]), a.at([1, 0])) } output { f = reaction(«p») }" => "`p` stands under `tree`";
     unknown_shape: "coords { x } mass { x: 1.0 } draw { «lien»([x, 0], [0, 0]) }" => "unknown shape `lien`; did you mean `line`?";
+    shape_far_from_all: "coords { x } mass { x: 1.0 } draw { «flower»([x, 0]) }" => "unknown shape `flower`; shapes are `line(p, q)`, `polyline(p, q, …)`";
     shape_without_points: "coords { x } mass { x: 1.0 } draw { «line» }" => "a shape is written with its points: `line(p, q)`";
     shape_with_too_few_points: "coords { x } mass { x: 1.0 } draw { «line»([x, 0]) }" => "shapes are written `line(p, q)`, ";
     text_without_words: "coords { x } mass { x: 1.0 } draw { «text»([x, 0]) }" => "shapes are written `line(p, q)`, ";
@@ -510,4 +519,16 @@ fn no_coordinates() {
 #[test]
 fn an_unreadable_name_still_gives_one_error() {
     assert_eq!(errors("42 { coords { x } }").len(), 1);
+}
+
+#[test]
+fn one_declaration_in_a_call() {
+    let found = errors("pub T { coords { x } mass { x: 1 } } pub U { coords { x } mass { x: 1 } }");
+    assert_eq!(found.len(), 1);
+    assert!(
+        found[0]
+            .message
+            .starts_with("one declaration per `multibody!`")
+    );
+    assert_eq!(found[0].start.column, 37);
 }

@@ -244,6 +244,26 @@ fn errors_of_a_part_are_told_once() {
     );
 }
 
+/// What a type gives member by member stays its own, and parts are counted before they are made.
+#[test]
+fn what_cannot_be_given_or_made_is_told() {
+    let leg = "@parts [{ P } { pub P { params { for i in 0..2 { r[i] = 1.0 + i } } coords { x } mass { x: r[0] + r[1] } } } { }] pub T {";
+    for (parts, message) in [
+        (
+            "p: P { r: [1, 2] }",
+            "`r` is declared member by member in `P` and cannot be given",
+        ),
+        (
+            "p[1000]: P, r[10]: P",
+            "these are more than 1000 parts in all",
+        ),
+    ] {
+        let (_, errors) = expand(&format!("{leg} parts {{ {parts} }} }}"));
+        let told: Vec<String> = errors.iter().map(|error| error.message.clone()).collect();
+        assert!(told.len() == 1 && told[0].contains(message), "{told:?}");
+    }
+}
+
 macro_rules! cases {
     ($($name:ident: $source:literal => $($message:literal),+;)*) => {
         $(#[test] fn $name() { check_after(LEG, $source, &[$($message),+]); })*

@@ -111,6 +111,7 @@ cases! {
     no_call: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «a» }" => "a joint of the tree is written `name: pin(p, q)`; joints of the tree are `pin`";
     no_name: "bodies { planar a { mass: 1, inertia: 1 } } tree { «pin»(ground.at([0, 0]), a.at([0, 0])) }" => "a joint needs a name";
     no_joint: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «pinn»(ground.at([0, 0]), a.at([0, 0])) }" => "no joint of the tree is called `pinn`; did you mean `pin`?";
+    too_few_indices: "bodies { planar a[2][2] { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), «a[0]».at([0, 0])) }" => "bodies of `a` take 2 indices";
     rod_in_the_tree: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «rod»(ground.at([0, 0]), a.at([0, 0]), 1) }" => "no joint of the tree is called `rod`";
     equation_in_the_tree: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) «=» t }" => "a joint of the tree says what is free, and has no `=`";
     one_argument: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «pin»(a.at([0, 0])) }" => "a joint of the tree joins points of two bodies";

@@ -238,6 +238,8 @@ cases! {
     reaction: "coords { x [m], y [m] } mass { x: 1, y: 1 } holonomic { c: x = y } output { f [N] = reaction(c), g [J] = «reaction(c)» }" => "expected J, as `[J]` says, found N";
     // Units themselves.
     unknown_unit: "params { l = 1 [«mtr»] } coords { x [m] } mass { x: l }" => "unknown unit `mtr`";
+    unknown_unit_far_from_all: "params { l = 1 [«parsecs»] } coords { x [m] } mass { x: l }" => "unknown unit `parsecs`; a unit is a product of powers of kg, m, s";
+    unknown_unit_of_an_option: "coords { x [m] } mass { x: 1 } start a(b = 1.0 [«metres»]) { x = b }" => "unknown unit `metres`";
     unknown_beside_known: "params { l = 1 [kg «mtr»] } coords { x [m] } mass { x: 1 }" => "unknown unit `mtr`";
     hertz: "params { f = 1 «[Hz]» } coords { x [m] } mass { x: 1 }" => "a hertz may be meant as a turn a second or as 1/s";
     two_readings: "params { c = 1 «[N/m s]» } coords { x [m] } mass { x: 1 }" => "`/m s` has two readings; write `/m/s`, or `s` before the `/`";

@@ -307,6 +307,25 @@ fn it_is_swept_until_it_breaks() {
     fails("stability carts", 2, "did you mean `cart`?");
 }
 
+/// With the cart and x held the bob is above it or below: a guess between the two does not say which.
+#[test]
+fn ways_as_near_are_noted() {
+    let guess = "--hold s,x --until 0 --guess x=0.3 --guess";
+    let told = "another way to put it together is as near to what is guessed: it differs in `y` by -0.800; \
+                `--guess` or `--hold` decides\n";
+    let run = cart(&format!("run cart {guess} y=0.02"));
+    assert_eq!(
+        String::from_utf8_lossy(&run.stderr),
+        format!("note: {told}")
+    );
+    assert_eq!(run.status.code(), Some(0));
+    assert!(output(&format!("diagnose cart {guess} y=0.02")).contains(told));
+    // `output` holds standard error to be empty.
+    output(&format!("run cart {guess} y=0.2"));
+    let apart = output(&format!("diagnose cart {guess} y=0.2"));
+    assert!(apart.contains("`y` by 0.200 moved most\n") && !apart.contains("another way"));
+}
+
 #[test]
 fn constraints_are_diagnosed() {
     assert_eq!(

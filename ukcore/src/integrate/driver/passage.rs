@@ -51,6 +51,10 @@ const BACK: usize = 8;
 /// Tolerance of the way back from a start, as a share of that of the run.
 const FINER: f64 = 0.1;
 
+/// The way back is made four times as long so often at most, until it takes so many steps.
+const FARTHER: usize = 16;
+const NATURAL: usize = 4;
+
 /// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
 const ONE: f64 = 1e-3;
 
@@ -278,29 +282,45 @@ impl Driver<'_> {
         })
     }
 
-    /// The place and state a step before the start of a run: a start so near to a position is a state of a motion that has come from
-    /// somewhere. `None` if there is no telling.
+    /// A place and state some steps before the start of a run, where nothing says that the position is near: a start so near to one is a
+    /// state of a motion that has come from somewhere. `None` if there is no telling.
     fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
-        let course = &self.equations.course;
-        let (h, from) = (course.h, course.now);
-        let place = Place {
-            s: from.s - h,
-            t: from.t - h,
-        };
+        let from = self.equations.course.now;
         let mut settings = *self.settings;
         settings.tolerance.relative *= FINER;
         settings.tolerance.absolute *= FINER;
         (settings.first_step, settings.dense) = (None, false);
-        let start = self.scheme.start().to_vec();
-        let problem = &mut *self.equations.problem;
-        let mut other = Driver::new(Method::Dop853, problem, from.t, &start, place.t, &settings);
-        // None of it belongs to the run.
-        other.shown = Some((place.t - h, Vec::new()));
-        other.passage.bounded = true;
-        let (report, y) = other.travel();
-        let course = &mut self.equations.course;
-        course.attempts += report.steps + report.rejected;
-        matches!(report.outcome, Outcome::Reached).then_some((place, y))
+        let mut found = None;
+        let (mut t, mut y) = (from.t, self.scheme.start().to_vec());
+        // The size of steps at the start is a first guess.
+        let mut h = self.equations.course.h;
+        for k in 0..FARTHER {
+            let place = Place {
+                s: from.s - h,
+                t: from.t - h,
+            };
+            let problem = &mut *self.equations.problem;
+            let mut other = Driver::new(Method::Dop853, problem, t, &y, place.t, &settings);
+            // None of it belongs to the run.
+            other.shown = Some((place.t - h, Vec::new()));
+            other.passage.bounded = true;
+            let (report, end) = other.travel();
+            let course = &mut self.equations.course;
+            course.attempts += report.steps + report.rejected;
+            if !matches!(report.outcome, Outcome::Reached) {
+                break;
+            }
+            (t, y) = (place.t, end.clone());
+            found = Some((place, end));
+            course.h = h;
+            // Near the position they are short; none is longer than the run.
+            let enough = k > 0 && report.steps >= NATURAL;
+            if enough || h.abs() >= course.end.s.abs() {
+                break;
+            }
+            h *= 4.0;
+        }
+        found
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.

@@ -106,8 +106,8 @@ impl Running {
         self.settings.dense || self.course.covers(self.trial, next)
     }
 
-    /// Takes the samples of the step in hand, and what is integrated along it, from states at its ends, the coefficients of its interpolant,
-    /// and its error with the size that this has; none of them, with `false`, if one fails or an integral is not exact enough.
+    /// Takes the samples of the step in hand, and what is integrated along it, from states at its ends, the coefficients of its
+    /// interpolant, and its error with the size that this has; none of them, with `false`, if one fails or an integral is not exact enough.
     pub(super) fn record(
         &mut self,
         [old, new]: [Vec<f64>; 2],

@@ -190,3 +190,35 @@ fn toy<M: Mechanism>(mechanism: M, q: &[f64], v: &[f64]) -> Simulation {
         .start(State { t, q, v })
         .tolerance(1e-11)
 }
+
+/// A run may go back, to a singular position that it came too near to: what rows did before says nothing of the way from there.
+#[test]
+fn a_watch_of_rows_that_goes_back_looks_as_one_that_begins() {
+    use crate::simulate::vanishing::RowWatch;
+    let mechanism = Prepared::from(&Pendulum::default());
+    let state = |t: f64| State {
+        t,
+        q: vec![t.sin(), -t.cos()],
+        v: vec![t.cos(), t.sin()],
+    };
+    let step = |watch: &mut RowWatch, from: f64, to: f64, turns: bool| {
+        let (old, mut new) = (state(from), state(to));
+        if turns {
+            new.v.iter_mut().for_each(|v| *v = -*v);
+        }
+        let found = watch.vanishing(&mechanism, Sample::from(&old), Sample::from(&new));
+        assert!(found.is_none());
+        watch.accept(to);
+    };
+    let mut watch = RowWatch::new(Method::Dop853, 1e-6);
+    for (from, to) in [(0.0, 0.3), (0.3, 0.6), (0.6, 1.2)] {
+        step(&mut watch, from, to, false);
+    }
+    // Back, where it turns, so that rows are looked at.
+    step(&mut watch, 0.1, 0.2, true);
+    step(&mut watch, 0.2, 0.25, false);
+    let mut fresh = RowWatch::new(Method::Dop853, 1e-6);
+    step(&mut fresh, 0.2, 0.25, false);
+    assert_eq!(watch.due(), fresh.due());
+    assert!(fresh.due() > 0.25);
+}

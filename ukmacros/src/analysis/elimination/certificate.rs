@@ -11,7 +11,7 @@
 //!   the others κ(B Bᵀ) is 1/σ² and about G/d, so that the error of q̈ is below (n + m) ε · 1024 of the larger of q̈ and M⁻¹ Q, in the mass
 //!   metric. (Shares of rows that are dependent in steps, each near those before, could multiply in the worst case; chains of links nearly
 //!   in line do not. Measured over approaches to rank loss, errors reach a tenth of the bound; of three light masses in a straight chain,
-//!   each share just accepted, the bound itself: tests/tests/certificate.rs.)
+//!   each share just accepted, the bound itself: models/tests/certificate.rs.)
 //!
 //! With 2 × 2 pivots the same holds of what they leave, M' = Zᵀ M Z and A' = A Z, if these are known to rounding of what they could be, and
 //! not of what is left of them. Hence what a pivot is compared with:

@@ -530,9 +530,11 @@ impl<'m> Lowering<'m> {
         };
         let env = Env::new(scope, place);
         let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), Load::default());
+        let mut known = true;
         match &equation.lhs.kind {
             ExprKind::Call(..) => {
                 let value = self.argument(&equation.lhs, &env);
+                known = !value.is_error();
                 if let Value::Joint(joint) = &value {
                     rows.clone_from(&joint.names);
                     load.clone_from(&joint.load);
@@ -545,7 +547,7 @@ impl<'m> Lowering<'m> {
         let left = terms.len();
         match &equation.rhs {
             Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
-            None if self.is_joint(&equation.lhs) => {}
+            None if !known || self.is_joint(&equation.lhs) => {}
             None => self
                 .diag
                 .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),

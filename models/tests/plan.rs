@@ -1,9 +1,10 @@
 //! What the compiler says it does, against elimination with numbers.
 
+use crate::every::every_model;
 use models::FishRobot;
 use nalgebra::DMatrix;
 use std::collections::BTreeSet;
-use tests::{Random, every_model};
+use tests::Random;
 use ukcore::Mechanism;
 use ukcore::plan::Plan;
 use ukcore::spec::Pivot;

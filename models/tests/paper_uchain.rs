@@ -78,8 +78,7 @@ fn peak(run: &Trajectory) -> f64 {
 
 #[test]
 fn table_1_and_peaks() {
-    let data: Value =
-        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
     for (row, (h_max, t_max, deepest)) in TABLE_1.iter().zip(REFERENCE) {
         let case = format!("x0 = {}", row.x0);
         let run = fall(row.x0);
@@ -146,8 +145,7 @@ fn by_key(state: Sample<'_>) -> [(&'static str, Vec<f64>); 4] {
 /// it happens to take. So the median over some tolerances counts.
 #[test]
 fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
-    let data: Value =
-        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
     let expected = &data["states"]["1.5"];
     let mut errors: Vec<f64> = (0..15)
         .map(|k| {
@@ -170,8 +168,7 @@ fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
 
 #[test]
 fn states_agree_with_the_reference() {
-    let data: Value =
-        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
     let mut state = start("trapezoid", 12.0);
     for (time, expected) in data["states"].as_object().expect("an object") {
         let end: f64 = time.parse().expect("a time");

@@ -1,7 +1,8 @@
 //! Projection of every model from states off its constraints, by the emitted elimination where there is one.
 
+use crate::every::{every_model, start};
 use nalgebra::{DMatrix, DVector};
-use tests::{Random, every_model, largest, pseudo_inverse, start};
+use tests::{Random, largest, pseudo_inverse};
 use ukcore::manifold::Projector;
 use ukcore::{Prepared, State, assemble};
 

@@ -52,8 +52,7 @@ fn pendulum_in_elliptic_functions() {
 
 #[test]
 fn pendulum_reference() {
-    let data: Value =
-        serde_json::from_str(include_str!("../../models/data/pendulum.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!("../data/pendulum.json")).expect("JSON");
     let pendulum = Pendulum::default();
     let period = decimals(&data["period"]);
     assert_close("period", pendulum.period(FRAC_PI_2), period, 1e-15 * period);
@@ -112,7 +111,7 @@ fn pendulum_period_by_event() {
 #[test]
 fn double_pendulum_reference() {
     let data: Value =
-        serde_json::from_str(include_str!("../../models/data/double_pendulum.json")).expect("JSON");
+        serde_json::from_str(include_str!("../data/double_pendulum.json")).expect("JSON");
     let cartesian = DoublePendulum::default();
     let angles = DoublePendulumAngles::default();
     let mut state = cartesian.default_start().expect("a start");

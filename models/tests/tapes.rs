@@ -1,7 +1,8 @@
 //! Numbers that read emitted functions off their tapes get what compiled functions compute, to the last bit.
 
+use crate::every::{Check, every_type};
 use models::Model;
-use tests::{Check, Random, every_type};
+use tests::Random;
 use ukcore::Mechanism;
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{Scalar, Sloped};

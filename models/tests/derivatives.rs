@@ -1,8 +1,9 @@
 //! A and b of every model against differences of its constraints, which share nothing with what is differentiated otherwise; patterns of
 //! zeros.
 
+use crate::every::{Check, every_type};
 use models::Model;
-use tests::{Check, Dense, Random, assert_close, every_type, largest};
+use tests::{Dense, Random, assert_close, largest};
 use ukcore::{Mechanism, State};
 
 /// Random states and parameters tried per model.

@@ -51,8 +51,7 @@ fn start_acceleration(fish: &FishRobot) -> f64 {
 
 #[test]
 fn states_agree_with_the_reference() {
-    let data: Value =
-        serde_json::from_str(include_str!("../../models/data/fish.json")).expect("JSON");
+    let data: Value = serde_json::from_str(include_str!("../data/fish.json")).expect("JSON");
     let run = swim(&FishRobot::default(), 1e-10, vec![1.0, 2.0, 4.0]);
     for sample in run.samples() {
         let expected: Vec<f64> = data["states"][format!("{:.1}", sample.t)]

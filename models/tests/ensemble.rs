@@ -1,7 +1,8 @@
 //! Ensembles against runs one by one, and against themselves in other company.
 
+use crate::every::{Check, every_type};
 use models::{Model, Pendulum, UChain};
-use tests::{Check, Random, assert_all_close, every_type, largest};
+use tests::{Random, assert_all_close, largest};
 use ukcore::simulate::{Member, Switching};
 use ukcore::{Ensemble, Error, Simulation, State};
 

@@ -1,15 +1,13 @@
 //! What must hold whatever the motion: energy, momentum, d'Alembert's and Gauss's principles.
 
+use crate::every::{every_model, every_state, start};
 use models::{KnifeEdge, Model, Pendulum, RigidBody, StartOptions};
 use nalgebra::DVector;
-use tests::{Dense, Random, assert_close, every_model, largest, start};
-use ukcore::{Simulation, Solver, SolverOptions};
+use tests::{Dense, assert_close, largest};
+use ukcore::Simulation;
 
 /// Relative accuracy of quantities computed once from a state: a solve loses some digits to the condition of the constraints.
 const ROUNDING: f64 = 1e-9;
-
-/// Random consistent states tried per model.
-const STATES: usize = 20;
 
 #[test]
 fn energy_is_conserved() {
@@ -41,101 +39,89 @@ fn the_right_models_are_conservative() {
 
 #[test]
 fn ideal_forces_do_no_virtual_work() {
-    every_model(|model| {
-        let mechanism = &model.mechanism;
-        let spec = mechanism.spec();
-        let mut random = Random::new(21);
-        let mut solver = Solver::new(mechanism, SolverOptions::default());
-        for _ in 0..STATES {
-            let state = random.near(mechanism, start(model), 0.01);
-            let solution = solver
-                .solve(state.t, &state.q, &state.v)
-                .unwrap_or_else(|e| panic!("{}: {e}", model.id));
-            let dense = Dense::of(mechanism, &state);
-            let force = DVector::from_vec(solution.ideal_force.clone());
-            let virtual_displacement = dense.tangent() * DVector::from_vec(random.vector(spec.n()));
-            let work = force.dot(&virtual_displacement);
-            let scale = force.norm() * virtual_displacement.norm();
-            assert!(
-                work.abs() <= ROUNDING * scale.max(1.0),
-                "{}: {work:e} of {scale:e}",
-                model.id
-            );
+    every_state(21, |model, state, solver, random| {
+        let spec = model.mechanism.spec();
+        let solution = solver
+            .solve(state.t, &state.q, &state.v)
+            .unwrap_or_else(|e| panic!("{}: {e}", model.id));
+        let dense = Dense::of(&model.mechanism, state);
+        let force = DVector::from_vec(solution.ideal_force.clone());
+        let virtual_displacement = dense.tangent() * DVector::from_vec(random.vector(spec.n()));
+        let work = force.dot(&virtual_displacement);
+        let scale = force.norm() * virtual_displacement.norm();
+        assert!(
+            work.abs() <= ROUNDING * scale.max(1.0),
+            "{}: {work:e} of {scale:e}",
+            model.id
+        );
 
-            // The multipliers give the same force: Qc_id = Aᵀ λ.
-            let by_multipliers = dense
-                .jacobian
-                .tr_mul(&DVector::from_vec(solution.multipliers.clone()));
-            let off = (by_multipliers - &force).norm();
-            assert!(
-                off <= ROUNDING * force.norm().max(1.0),
-                "{}: Aᵀλ off by {off:e}",
-                model.id
-            );
+        // The multipliers give the same force: Qc_id = Aᵀ λ.
+        let by_multipliers = dense
+            .jacobian
+            .tr_mul(&DVector::from_vec(solution.multipliers.clone()));
+        let off = (by_multipliers - &force).norm();
+        assert!(
+            off <= ROUNDING * force.norm().max(1.0),
+            "{}: Aᵀλ off by {off:e}",
+            model.id
+        );
 
-            // Eq. 13 and eq. 5 hold.
-            let acceleration = DVector::from_vec(solution.acceleration.clone());
-            let balance = &dense.mass * &acceleration
-                - &dense.force
-                - &force
-                - DVector::from_vec(solution.nonideal_force.clone());
-            let scale = dense.force.norm() + force.norm();
-            assert!(
-                balance.norm() <= ROUNDING * scale.max(1.0),
-                "{}: M q̈ off by {:e}",
-                model.id,
-                balance.norm()
-            );
-            let off = &dense.jacobian * &acceleration - &dense.rhs;
-            let scale = dense.jacobian.norm() * acceleration.norm() + dense.rhs.norm();
-            assert!(
-                off.norm() <= ROUNDING * scale.max(1.0),
-                "{}: A q̈ off by {:e}",
-                model.id,
-                off.norm()
-            );
-            assert_eq!(
-                solution.degrees_of_freedom + solution.rank,
-                spec.n(),
-                "{}",
-                model.id
-            );
-        }
+        // Eq. 13 and eq. 5 hold.
+        let acceleration = DVector::from_vec(solution.acceleration.clone());
+        let balance = &dense.mass * &acceleration
+            - &dense.force
+            - &force
+            - DVector::from_vec(solution.nonideal_force.clone());
+        let scale = dense.force.norm() + force.norm();
+        assert!(
+            balance.norm() <= ROUNDING * scale.max(1.0),
+            "{}: M q̈ off by {:e}",
+            model.id,
+            balance.norm()
+        );
+        let off = &dense.jacobian * &acceleration - &dense.rhs;
+        let scale = dense.jacobian.norm() * acceleration.norm() + dense.rhs.norm();
+        assert!(
+            off.norm() <= ROUNDING * scale.max(1.0),
+            "{}: A q̈ off by {:e}",
+            model.id,
+            off.norm()
+        );
+        assert_eq!(
+            solution.degrees_of_freedom + solution.rank,
+            spec.n(),
+            "{}",
+            model.id
+        );
     });
 }
 
 #[test]
 fn gauss_principle() {
-    every_model(|model| {
-        let mechanism = &model.mechanism;
-        let spec = mechanism.spec();
-        let mut random = Random::new(22);
-        let mut solver = Solver::new(mechanism, SolverOptions::default());
-        for _ in 0..STATES {
-            let state = random.near(mechanism, start(model), 0.01);
-            let mut actual = vec![0.0; spec.n()];
-            solver
-                .acceleration(state.t, &state.q, &state.v, &mut actual)
-                .unwrap_or_else(|e| panic!("{}: {e}", model.id));
-            let actual = DVector::from_vec(actual);
-            let dense = Dense::of(mechanism, &state);
-            let constraint = dense.gauss(&actual);
-            let tangent = dense.tangent();
-            let scale = actual.norm().max(1.0);
-            for _ in 0..5 {
-                // Any feasible acceleration differs from the actual one by a virtual displacement.
-                let change = &tangent * DVector::from_vec(random.vector(spec.n())) * scale;
-                let feasible = &actual + &change;
-                let excess = dense.gauss(&feasible) - constraint;
-                let expected = 0.5 * change.dot(&(&dense.mass * &change));
-                let size = dense.mass.norm() * scale * scale + dense.force.norm() * scale;
-                assert_close(&model.id, excess, expected, ROUNDING * size.max(1.0));
-                assert!(
-                    excess >= -ROUNDING * size.max(1.0),
-                    "{}: {excess:e}",
-                    model.id
-                );
-            }
+    every_state(22, |model, state, solver, random| {
+        let spec = model.mechanism.spec();
+        let mut actual = vec![0.0; spec.n()];
+        solver
+            .acceleration(state.t, &state.q, &state.v, &mut actual)
+            .unwrap_or_else(|e| panic!("{}: {e}", model.id));
+        let actual = DVector::from_vec(actual);
+        let dense = Dense::of(&model.mechanism, state);
+        let constraint = dense.gauss(&actual);
+        let tangent = dense.tangent();
+        let scale = actual.norm().max(1.0);
+        for _ in 0..5 {
+            // Any feasible acceleration differs from the actual one by a virtual displacement.
+            let change = &tangent * DVector::from_vec(random.vector(spec.n())) * scale;
+            let feasible = &actual + &change;
+            let excess = dense.gauss(&feasible) - constraint;
+            let expected = 0.5 * change.dot(&(&dense.mass * &change));
+            let size = dense.mass.norm() * scale * scale + dense.force.norm() * scale;
+            assert_close(&model.id, excess, expected, ROUNDING * size.max(1.0));
+            assert!(
+                excess >= -ROUNDING * size.max(1.0),
+                "{}: {excess:e}",
+                model.id
+            );
         }
     });
 }

@@ -1,6 +1,6 @@
 //! `verify!` finds what is planted, and finds nothing in what is right.
 
-use tests::{Check, every_type};
+use crate::every::{Check, every_type};
 use ukcore::mechanism::{Energy, Terms};
 use ukcore::model::{Entry, Model, StartOptions};
 use ukcore::scalar::Scalar;

@@ -1,7 +1,8 @@
 //! Exact derivatives of the accelerations against differences of them, and against closed forms.
 
+use crate::every::{Check, every_type};
 use models::{Model, Pendulum};
-use tests::{Check, Random, assert_all_close, every_type, largest};
+use tests::{Random, assert_all_close, largest};
 use ukcore::manifold::Projector;
 use ukcore::{Error, Linearisation, Mechanism, Solver, SolverOptions, State};
 

@@ -3,9 +3,10 @@
 //! Distance σ: the smallest singular value of A M^−½, its rows scaled to length 1. The bounds are those of `ukmacros`' elimination:
 //! σ ≥ 1/32 is accepted, and q̈ that is accepted is within (n + m) ε · 1024 of the larger of q̈ and M⁻¹ Q in the mass metric.
 
+use crate::every::{Check, every_model, every_type};
 use models::{Model, SliderCrank, UChain};
 use nalgebra::{DMatrix, DVector};
-use tests::{Dense, Random, every_model, every_type, pseudo_inverse, singular_values};
+use tests::{Dense, Random, pseudo_inverse, singular_values};
 use ukcore::solver::Formula;
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Prepared, Solver, SolverOptions, State};
@@ -311,7 +312,7 @@ fn what_a_solver_remembers_does_not_hide_rank_loss() {
 #[test]
 fn wrong_masses() {
     struct Wrong;
-    impl tests::Check for Wrong {
+    impl Check for Wrong {
         fn check<M: Model>(&self) {
             let solve = &M::SPEC.structure.solve;
             let n = M::SPEC.n();

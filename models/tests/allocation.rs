@@ -1,6 +1,6 @@
 //! After setup, an acceleration allocates nothing.
 
-use tests::{every_model, start};
+use crate::every::{every_model, start};
 use ukcore::manifold::Projector;
 use ukcore::solver::Formula;
 use ukcore::{Solver, SolverOptions};

@@ -1,7 +1,8 @@
 //! Lanes against one mechanism alone: each lane holds other parameters and another state.
 
+use crate::every::{Check, every_type};
 use models::{Model, Pendulum};
-use tests::{Check, Dense, Random, assert_all_close, every_type, largest};
+use tests::{Dense, Random, assert_all_close, largest};
 use ukcore::lanes::{LaneSolver, Lanes};
 use ukcore::mechanism::Terms;
 use ukcore::{Error, Mechanism, Solver, SolverOptions, State};

@@ -1,0 +1,252 @@
+//! What makes coordinates of different units comparable: metres and radians, whatever the unit of length.
+//!
+//! Coordinates of one unit are compared as they stand. Those of different units are compared by the rows of A in which both stand: a row of
+//! lengths that has the entry 1 for a position and the entry r for an angle says that a radian is worth the length r. The median of these
+//! levers counts, so that neither one long lever nor one that vanishes at a state decides; and since sines may all vanish at a state, A is
+//! looked at beside it, too, with angles turned. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
+//! no row, directly or by others, are compared by their inertias.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::mechanism::Prepared;
+use crate::spec::Spec;
+
+/// Where A is looked at beside a state, angles are turned by this much, and by this much more for each of the next few; quaternions by this
+/// share of their length. No sum of few of them is a multiple of a right angle.
+const TURN: f64 = FRAC_PI_2 * 0.618;
+const FURTHER: f64 = 0.19;
+
+/// What coordinates of a mechanism are measured by, in buffers allocated once.
+#[derive(Debug, Clone)]
+pub(crate) struct Measure {
+    /// sᵢ: |A_ci| sᵢ and |qᵢ|/sᵢ are comparable for all i.
+    pub(crate) scale: Vec<f64>,
+    /// Which coordinates have the unit of which others.
+    class: Vec<usize>,
+    classes: usize,
+    kept: bool,
+    turns: Vec<Turn>,
+    /// The state beside.
+    beside: Vec<f64>,
+    jacobian: Vec<f64>,
+    /// The largest entry of each class in each row.
+    entries: Vec<f64>,
+    levers: Vec<f64>,
+    known: Vec<bool>,
+    factors: Vec<f64>,
+}
+
+/// Coordinates that A is looked at with other values of: an angle, or those of a quaternion.
+#[derive(Debug, Clone)]
+enum Turn {
+    Angle(usize),
+    Together(Vec<usize>),
+}
+
+impl Measure {
+    pub(crate) fn new(spec: &Spec) -> Self {
+        let (n, m) = (spec.n(), spec.m());
+        let (class, classes, turns) = classes(spec);
+        let room = if classes > 1 { n * m } else { 0 };
+        Measure {
+            scale: vec![1.0; n],
+            class,
+            classes,
+            kept: classes < 2,
+            turns,
+            beside: vec![0.0; n],
+            jacobian: vec![0.0; room],
+            entries: vec![0.0; classes * m],
+            levers: Vec::with_capacity(m),
+            known: vec![false; classes],
+            factors: vec![1.0; classes],
+        }
+    }
+
+    /// The measure of a state.
+    pub(crate) fn at(mech: &Prepared, t: f64, [q, v]: [&[f64]; 2]) -> Self {
+        let mut measure = Measure::new(mech.spec());
+        if !measure.kept {
+            let (n, m) = (mech.spec().n(), mech.spec().m());
+            let (mut jacobian, mut mass) = (vec![0.0; m * n], vec![0.0; n * n]);
+            mech.jacobian(t, q, v, &mut jacobian);
+            mech.mass_matrix(t, q, &mut mass);
+            measure.take(mech, t, [q, v], &jacobian, &mass);
+        }
+        measure
+    }
+
+    /// Whether all coordinates are of one unit.
+    pub(crate) fn is_one(&self) -> bool {
+        self.classes < 2
+    }
+
+    /// Keeps this scale, from now on at all states.
+    pub(crate) fn keep(&mut self, scale: &[f64]) {
+        self.scale.copy_from_slice(scale);
+        self.kept = true;
+    }
+
+    /// Takes the scale at a state, where A has the entries `jacobian` and M is `mass` (both column-major).
+    pub(crate) fn take(
+        &mut self,
+        mech: &Prepared,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        jacobian: &[f64],
+        mass: &[f64],
+    ) {
+        if self.kept {
+            return;
+        }
+        self.turn(q);
+        let mut beside = std::mem::take(&mut self.jacobian);
+        mech.jacobian(t, &self.beside, v, &mut beside);
+        let m = mech.spec().m();
+        self.entries.fill(0.0);
+        for (c, i) in mech.spec().structure.jacobian_pattern {
+            let place = i * m + c;
+            let entry = &mut self.entries[c * self.classes + self.class[*i]];
+            // Beside the state A need have no value.
+            let other = Some(beside[place].abs()).filter(|x| x.is_finite());
+            *entry = entry.max(jacobian[place].abs()).max(other.unwrap_or(0.0));
+        }
+        self.jacobian = beside;
+        self.link(mass);
+        let pairs = self.scale.iter_mut().zip(&self.class);
+        pairs.for_each(|(scale, class)| *scale = self.factors[*class]);
+    }
+
+    /// max |xᵢ|/sᵢ, the size of coordinates or velocities.
+    pub(crate) fn size(&self, x: &[f64]) -> f64 {
+        let sizes = x.iter().zip(&self.scale).map(|(x, s)| x.abs() / s);
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// The size of a turn by a radian, the largest of all angles; 0 where there is no angle.
+    pub(crate) fn radian(&self) -> f64 {
+        let sizes = self.turns.iter().map(|turn| match turn {
+            Turn::Angle(i) => self.scale[*i].recip(),
+            Turn::Together(_) => 0.0,
+        });
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Measures the columns of A.
+    pub(crate) fn weigh(&self, jacobian: &mut [f64]) {
+        if self.is_one() || jacobian.is_empty() {
+            return;
+        }
+        let m = jacobian.len() / self.scale.len();
+        for (column, scale) in jacobian.chunks_exact_mut(m).zip(&self.scale) {
+            column.iter_mut().for_each(|a| *a *= scale);
+        }
+    }
+
+    /// Goes beside the state.
+    fn turn(&mut self, q: &[f64]) {
+        self.beside.copy_from_slice(q);
+        let part = |k: usize| TURN + FURTHER * (k % 5) as f64;
+        for (k, turn) in self.turns.iter().enumerate() {
+            match turn {
+                Turn::Angle(i) => self.beside[*i] += part(k),
+                Turn::Together(all) => {
+                    let length = all.iter().fold(0.0_f64, |sum, i| sum.hypot(q[*i]));
+                    for (k, i) in all.iter().enumerate() {
+                        self.beside[*i] += 0.5 * part(k) * length;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Finds the factor of each class, one after the other, from those that share rows with it, or inertias.
+    fn link(&mut self, mass: &[f64]) {
+        self.known.fill(false);
+        (self.known[0], self.factors[0]) = (true, 1.0);
+        while let Some(first) = self.known.iter().position(|known| !known) {
+            let linked = (first..self.classes).find_map(|k| Some((k, self.lever(k)?)));
+            let (k, lever) = linked.unwrap_or_else(|| (first, self.inertia(first, mass)));
+            (self.known[k], self.factors[k]) = (true, lever.recip());
+        }
+    }
+
+    /// The median of the entries of class k in rows, each by the largest of those whose factors are known.
+    fn lever(&mut self, k: usize) -> Option<f64> {
+        if self.known[k] {
+            return None;
+        }
+        self.levers.clear();
+        for row in self.entries.chunks_exact(self.classes) {
+            let known = (0..self.classes).filter(|j| self.known[*j]);
+            let others = known.map(|j| row[j] * self.factors[j]);
+            let others = others.fold(0.0, f64::max);
+            let lever = row[k] / others;
+            if others > 0.0 && lever > 0.0 && lever.is_finite() {
+                self.levers.push(lever);
+            }
+        }
+        if self.levers.is_empty() {
+            return None;
+        }
+        let middle = self.levers.len() / 2;
+        let (_, lever, _) = self.levers.select_nth_unstable_by(middle, f64::total_cmp);
+        Some(*lever)
+    }
+
+    /// The same by inertias; 1 where there are none.
+    fn inertia(&self, k: usize, mass: &[f64]) -> f64 {
+        let (n, class) = (self.scale.len(), &self.class);
+        let (mut own, mut others) = (0.0_f64, 0.0_f64);
+        for i in 0..n {
+            let root = mass[i * n + i].max(0.0).sqrt();
+            if class[i] == k {
+                own = own.max(root);
+            } else if self.known[class[i]] {
+                others = others.max(root * self.factors[class[i]]);
+            }
+        }
+        match own > 0.0 && others > 0.0 {
+            true => own / others,
+            false => 1.0,
+        }
+    }
+}
+
+/// Which coordinates are of one unit, of how many units they are, and what A is looked at with other values of. Units that are declared
+/// tell, and what the compiler found to be an angle or the unit vector of a rotation.
+fn classes(spec: &Spec) -> (Vec<usize>, usize, Vec<Turn>) {
+    let (n, structure) = (spec.n(), &spec.structure);
+    let mut turns: Vec<Turn> = structure.angles.iter().map(|i| Turn::Angle(*i)).collect();
+    let mut names: Vec<String> = (0..n).map(|i| spec.coordinate_unit(i).to_owned()).collect();
+    let declared = !spec.coordinate_units.is_empty();
+    let number = |i: usize| declared && matches!(spec.coordinate_unit(i), "" | "rad");
+    for (i, name) in names.iter_mut().enumerate() {
+        if number(i) || structure.angles.contains(&i) {
+            "rad".clone_into(name);
+        }
+    }
+    let unit = [structure.solve.regular, structure.solve.turned].concat();
+    for c in unit {
+        let entries = structure.jacobian_pattern.iter();
+        let all: Vec<usize> = entries.filter(|x| x.0 == c).map(|x| x.1).collect();
+        if !declared {
+            let name = all.iter().map(|i| names[*i].clone()).min();
+            let name = name.filter(|name| !name.is_empty());
+            let name = name.unwrap_or_else(|| format!("row {c}"));
+            all.iter().for_each(|i| names[*i].clone_from(&name));
+        }
+        turns.push(Turn::Together(all));
+    }
+    let mut found: Vec<&String> = Vec::new();
+    let class = names.iter().map(|name| {
+        let known = found.iter().position(|other| *other == name);
+        known.unwrap_or_else(|| {
+            found.push(name);
+            found.len() - 1
+        })
+    });
+    let class: Vec<usize> = class.collect();
+    let classes = found.len().max(1);
+    (class, classes, turns)
+}
