@@ -196,6 +196,18 @@ impl<S: Scalar> Prepared<S> {
     pub fn of<M: Mechanism>(given: Vec<S>) -> Self {
         Prepared::with(&Of::<M>(PhantomData), M::SPEC, given)
     }
+
+    /// This mechanism with other parameters (order of [`Spec::params`]) and the branches held here.
+    ///
+    /// # Panics
+    /// If `given` has not the length of [`Spec::params`].
+    #[must_use]
+    pub fn with_parameters(&self, given: Vec<S>) -> Self {
+        let mut other = Prepared::with(self.code, self.spec, given);
+        let fixed = self.spec.prepared.len();
+        other.values[fixed..].copy_from_slice(&self.values[fixed..]);
+        other
+    }
 }
 
 impl<S: Scalar, C: ?Sized + Equations<S>> Prepared<S, C> {
