@@ -164,7 +164,7 @@ pub fn diagnose_along(
     told.transpose()
 }
 
-/// The coordinates whose declared inertia is zero at `state`, with the verb.
+/// The coordinates whose declared inertia is zero at `state`.
 fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String> {
     let spec = mech.spec();
     let mut here = Evaluated::new(spec.n(), spec.m());
@@ -172,11 +172,7 @@ fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String>
     let diagonal = here.mass.iter().step_by(spec.n() + 1).enumerate();
     let gone = diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i));
     let gone: Vec<String> = gone.map(|(i, _)| spec.coords[i].to_owned()).collect();
-    match gone.len() {
-        0 => None,
-        1 => Some(format!("{} has", quoted(&gone))),
-        _ => Some(format!("{} have", quoted(&gone))),
-    }
+    (!gone.is_empty()).then(|| quoted(&gone))
 }
 
 /// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is
@@ -193,7 +189,7 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     let found = diagnose(&mech, state).ok()?;
     if let (true, Some(gone)) = (found.undetermined.is_empty(), without_inertia(&mech, state)) {
         return Some(format!(
-            "{gone} no inertia with these parameters, by which reactions are divided: give it some, however little, or declare none"
+            "there is no inertia in {gone} with these parameters, by which reactions are divided: give it some, however little, or declare none"
         ));
     }
     let (rows, how) = match found.undetermined.is_empty() {

@@ -223,6 +223,14 @@ impl Solver {
         if !self.straight_line || self.singular {
             return self.rank_revealing(t, q, v, out);
         }
+        if self.dropping.is_uneven() && all_finite(out) {
+            self.here.dynamics(&self.mechanism, t, q, v);
+            if self.is_even() {
+                self.work.evaluations += 1;
+                self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+                return Ok(());
+            }
+        }
         if self.refined(t, q, v, out) {
             self.full = self.m;
             return Ok(());
@@ -231,7 +239,7 @@ impl Solver {
         let fallbacks = self.work.fallbacks;
         let result = self.rank_revealing(t, q, v, out);
         let rank = self.dense.cod.rank();
-        let confirmed = result.is_ok() && (self.dropping.confirm(rank, self.m) | self.is_even());
+        let confirmed = result.is_ok() && self.dropping.confirm(rank, self.m);
         self.work.fallbacks = fallbacks + usize::from(!confirmed);
         result
     }

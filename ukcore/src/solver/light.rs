@@ -80,7 +80,7 @@ fn is_even(parts: &mut Vec<(f64, f64)>) -> bool {
 }
 
 impl Solver {
-    /// After a solution at `here`: whether the elimination last tried can be used as it is, inertias far apart or not.
+    /// With the equations in `here`: whether the elimination last tried can be used as it is, inertias far apart or not.
     pub(super) fn is_even(&mut self) -> bool {
         if !self.dropping.is_uneven() || !self.light.look(&self.here) {
             return false;
