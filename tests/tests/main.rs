@@ -35,6 +35,7 @@ mod stability;
 mod starts;
 mod stiff;
 mod switches;
+mod tied;
 mod tree;
 mod turned;
 mod units;

@@ -21,6 +21,9 @@ use crate::spec::Spec;
 /// N and of the product are a few n ε.
 const INERTIA_ROUNDING: f64 = 64.0;
 
+/// What is left of q̈ where it is not refined any more: the ratio of masses of any use is far above.
+const MOST_LEFT: f64 = 1e-60;
+
 /// Some rows of A (m × n, column-major): the first `rows`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rows<'a> {
@@ -331,6 +334,23 @@ impl Dense {
         self.reaction.copy_from_slice(&self.reduced);
         self.refine(a, rhs, out);
         axpy(1.0, &self.reduced, &mut self.reaction);
+        // Each gains as many digits as numbers have; light coordinates may need more, tied to heavy ones.
+        let mut left = f64::EPSILON;
+        while left > MOST_LEFT && self.is_lost(a, rhs, left, out) {
+            self.refine(a, rhs, out);
+            axpy(1.0, &self.reduced, &mut self.reaction);
+            left *= f64::EPSILON;
+        }
+    }
+
+    /// Whether `left` of the forces' part of a row of A q̈ is more than all that q̈ has there.
+    fn is_lost(&self, a: Rows<'_>, rhs: &[f64], left: f64, out: &[f64]) -> bool {
+        let rows = rhs[..a.rows].iter().enumerate();
+        let mut sizes = rows.map(|(c, b)| {
+            let size = b.abs() + a.magnitude(c, out);
+            (a.magnitude(c, &self.unconstrained), size)
+        });
+        sizes.any(|(free, size)| left * free > size)
     }
 
     /// Takes the residual b − A q̈ off q̈, once for the constraints and once for rounding: where rows nearly imply each other, and the

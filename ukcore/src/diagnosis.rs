@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
 use crate::nearby::nearby;
 use crate::random::Random;
@@ -165,6 +165,17 @@ pub fn diagnose_along(
     told.transpose()
 }
 
+/// The coordinates whose declared inertia is zero at `state`.
+fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String> {
+    let spec = mech.spec();
+    let mut here = Evaluated::new(spec.n(), spec.m());
+    here.dynamics(mech, *t, q, v);
+    let diagonal = here.mass.iter().step_by(spec.n() + 1).enumerate();
+    let gone = diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i));
+    let gone: Vec<String> = gone.map(|(i, _)| spec.coords[i].to_owned()).collect();
+    (!gone.is_empty()).then(|| quoted(&gone))
+}
+
 /// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is
 /// unknown.
 pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
@@ -172,11 +183,16 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     let State { t, q, v } = state;
     let mut acceleration = vec![0.0; q.len()];
     if !mech.spec().structure.straight_line
-        || Accepted::WHOLE.has(mech.acceleration(*t, q, v, &mut acceleration))
+        || Accepted::INDEPENDENT.has(mech.acceleration(*t, q, v, &mut acceleration))
     {
         return None;
     }
     let found = diagnose(&mech, state).ok()?;
+    if let (true, Some(gone)) = (found.undetermined.is_empty(), without_inertia(&mech, state)) {
+        return Some(format!(
+            "there is no inertia in {gone} with these parameters, by which reactions are divided: give it some, however little, or declare none"
+        ));
+    }
     let (rows, how) = match found.undetermined.is_empty() {
         true => (&found.nearest, "all but imply"),
         false => (&found.undetermined, "imply"),

@@ -91,7 +91,11 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     ///
     /// Where rows of [`Solve::redundant`](crate::spec::Solve::redundant) were left out it is 1 − k/1024 for k rows of which nothing but
     /// rounding is left, and 1/2 − k/1024 where what is left may come from a distance to the constraints, which it does not know: then q̈
-    /// is to be used only if their constraints are seen to be met otherwise, as by projection. [`Solver`](crate::Solver) keeps to that.
+    /// is to be used only if their constraints are seen to be met otherwise, as by projection.
+    ///
+    /// Where inertias are a factor of 10⁴ or more apart, so that accelerations of light coordinates may be rounding, all of these are 1/4
+    /// less: then q̈ is to be used only if no coordinate is light beside those that constraints tie it to. [`Solver`](crate::Solver) keeps
+    /// to all that.
     fn acceleration<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
         let _ = (prepared, t, q, v, out);
         S::from_f64(0.0)

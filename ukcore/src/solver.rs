@@ -31,6 +31,7 @@ use crate::spec::Spec;
 
 mod agreement;
 mod dropping;
+mod light;
 mod rank;
 mod refine;
 mod settings;
@@ -89,6 +90,7 @@ pub struct Solver {
     /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
     known: refine::Known,
+    light: light::Light,
     dropping: Dropping,
 }
 
@@ -138,6 +140,7 @@ impl Solver {
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
+            light: light::Light::new(n, m),
             dropping: Dropping::new(),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
@@ -219,6 +222,14 @@ impl Solver {
     ) -> Result<(), Error> {
         if !self.straight_line || self.singular {
             return self.rank_revealing(t, q, v, out);
+        }
+        if self.dropping.is_uneven() && all_finite(out) {
+            self.here.dynamics(&self.mechanism, t, q, v);
+            if self.is_even() {
+                self.work.evaluations += 1;
+                self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+                return Ok(());
+            }
         }
         if self.refined(t, q, v, out) {
             self.full = self.m;
@@ -363,6 +374,7 @@ impl Solver {
     pub fn mechanism_mut(&mut self) -> &mut Prepared {
         self.known.valid = false;
         self.dropping.forget();
+        self.light.forget();
         &mut self.mechanism
     }
 

@@ -31,10 +31,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 1 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 22 | 32 | 4 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 3 | 9 | 1 | 0 | 2 | 6 |
+/// | straight line, nothing hoisted | 3 | 10 | 1 | 0 | 2 | 9 |
 /// | straight line, as emitted | 3 | 7 | 0 | 0 | 1 | 0 |
 /// | correction of a projection | 1 | 2 | 0 | 0 | 1 | 0 |
-/// | once for a set of parameters | 0 | 3 | 1 | 0 | 1 | 6 |
+/// | once for a set of parameters | 0 | 4 | 1 | 0 | 1 | 9 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -266,11 +266,11 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 3,
-                        multiplications: 9,
+                        multiplications: 10,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 2,
-                        selections: 6,
+                        selections: 9,
                     },
                     acceleration: ukcore::Operations {
                         additions: 3,
@@ -290,11 +290,11 @@ const _: () = {
                     },
                     prepare: ukcore::Operations {
                         additions: 0,
-                        multiplications: 3,
+                        multiplications: 4,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 6,
+                        selections: 9,
                     },
                 },
             },
@@ -336,12 +336,14 @@ const _: () = {
                     constants: &[
                         1.7976931348623157e308,
                         2.2250738585072014e-308,
+                        0.0001,
                         1.0,
+                        0.75,
                         0.0,
                     ],
-                    code: b"160 bytes",
+                    code: b"204 bytes",
                 };
-                let mut registers = [S::from_f64(0.0); 10];
+                let mut registers = [S::from_f64(0.0); 13];
                 S::play(
                     &TAPE,
                     &mut registers,
@@ -363,7 +365,17 @@ const _: () = {
             let safe_th = S::select_le(
                 i,
                 lit(1.7976931348623157e308),
-                S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
+                S::select_le(
+                    lit(2.2250738585072014e-308),
+                    i,
+                    S::select_le(
+                        lit(0.0001) * S::select_le(i, m, m, i),
+                        S::select_le(m, i, m, i),
+                        lit(1.0),
+                        lit(0.75),
+                    ),
+                    lit(0.0),
+                ),
                 lit(0.0),
             );
             let safe_x = S::select_le(

@@ -269,7 +269,7 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
     let mut acceleration = vec![0.0; q.len()];
     if spec.structure.straight_line {
         let certificate = mechanism.acceleration(*t, q, v, &mut acceleration);
-        if Accepted::WHOLE.has(certificate) {
+        if Accepted::INDEPENDENT.has(certificate) {
             return None;
         }
     }

@@ -9,6 +9,8 @@
 
 /// A certificate of an elimination that left out no row.
 const WHOLE: f64 = 1.0;
+/// The same where inertias are far apart.
+const UNEVEN: f64 = 0.75;
 /// What it loses for each row that was left out, and where more than rounding is left of one: as the compiler emits it. Certificates are
 /// compared for equality, so no elimination that left rows out is used if the two come to differ.
 const DROPPED: f64 = 1.0 / 1024.0;
@@ -20,11 +22,14 @@ const DOUBT: usize = 8;
 /// The certificates of accelerations that may be used: of an elimination that left out no row, or as many as do follow from the others, of
 /// which rounding alone is left, or what drift may lend them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Accepted([f64; 3]);
+pub(crate) struct Accepted([f64; 6]);
 
 impl Accepted {
     /// Of an elimination that left out no row.
-    pub(crate) const WHOLE: Accepted = Accepted([WHOLE; 3]);
+    pub(crate) const WHOLE: Accepted = Accepted([WHOLE; 6]);
+    /// The same, whatever the inertias.
+    pub(crate) const INDEPENDENT: Accepted =
+        Accepted([WHOLE, WHOLE, WHOLE, UNEVEN, UNEVEN, UNEVEN]);
 
     /// Whether an acceleration with this certificate may be used.
     pub(crate) fn has(self, certificate: f64) -> bool {
@@ -43,6 +48,8 @@ pub(super) struct Dropping {
     doubt: usize,
     /// How many rows follow from the others with the parameters of now.
     rows: Option<usize>,
+    /// No coordinate is light beside the others with the parameters of now.
+    even: bool,
     /// The certificate of the elimination last tried.
     pub(super) certificate: f64,
     pub(super) accepted: Accepted,
@@ -55,6 +62,7 @@ impl Dropping {
             whole: false,
             doubt: 0,
             rows: None,
+            even: false,
             certificate: 0.0,
             accepted: Accepted::WHOLE,
         }
@@ -88,13 +96,28 @@ impl Dropping {
     fn accept(&mut self, rows: usize) {
         let lost = rows as f64 * DROPPED;
         let trusted = self.projected && self.doubt == 0;
-        let drifted = if trusted { DRIFTED } else { WHOLE };
-        self.accepted = Accepted([WHOLE, WHOLE - lost, drifted - lost]);
+        let with = |whole: f64| {
+            let drifted = if trusted { whole - DRIFTED } else { whole };
+            [whole, whole - lost, drifted - lost]
+        };
+        let ([a, b, c], [d, e, f]) = (with(WHOLE), with(if self.even { UNEVEN } else { WHOLE }));
+        self.accepted = Accepted([a, b, c, d, e, f]);
     }
 
     /// Parameters have changed.
     pub(super) fn forget(&mut self) {
-        (self.rows, self.accepted) = (None, Accepted::WHOLE);
+        (self.rows, self.even, self.accepted) = (None, false, Accepted::WHOLE);
+    }
+
+    /// Whether the elimination last tried waits for a look at inertias that are far apart.
+    pub(super) fn is_uneven(&self) -> bool {
+        !self.even && self.certificate > 0.0 && self.certificate <= UNEVEN
+    }
+
+    /// No coordinate is light beside the others.
+    pub(super) fn even_out(&mut self) {
+        self.even = true;
+        self.accept(self.rows.unwrap_or(0));
     }
 
     /// The rank of `m` rows, if it is known.
@@ -107,7 +130,8 @@ impl Dropping {
     pub(super) fn confirm(&mut self, rank: usize, m: usize) -> bool {
         let rows = m - rank;
         let lost = rows as f64 * DROPPED;
-        let confirms = !self.whole && rows > 0 && self.certificate == WHOLE - lost;
+        let left_out = [WHOLE - lost, UNEVEN - lost].contains(&self.certificate);
+        let confirms = !self.whole && rows > 0 && left_out;
         if confirms {
             self.rows = Some(rows);
             self.accept(rows);

@@ -1,4 +1,4 @@
-//! The straight line where its pivots lose digits though no constraint is near the others: light masses between heavy ones.
+//! The straight line where it loses digits though no constraint is near the others: light masses between heavy ones, or tied to them.
 //!
 //! Its certificate compares pivots in the mass metric, in which the rows of two links that share a light mass are nearly parallel. Whether
 //! a row counts is a matter of A alone, though. So where all rows of A counted for certain in a rank-revealing solve, they do while A has
@@ -12,6 +12,7 @@
 //! are turned, with the component along n for row j and that along t for row i.
 
 use super::{Formula, RANK_CEILING, Solver};
+use crate::mechanism::Evaluated;
 use crate::pinv::axpy;
 use crate::scan::all_finite;
 
@@ -97,26 +98,29 @@ impl Solver {
             step.fill(f64::NAN);
             self.mechanism.correction(t, q, v, residual, step);
             let size = norm(step);
+            if size == 0.0 {
+                return met(&self.here, out);
+            }
             if size.is_nan() || size > 0.1 * last {
                 return false;
             }
             out.iter_mut().zip(&*step).for_each(|(x, d)| *x += d);
             // What the next step would change, as each gains as much.
-            if size * size <= f64::EPSILON * scale * last {
-                return self.met(out);
+            if size * size <= f64::EPSILON * scale * last && met(&self.here, out) {
+                return true;
             }
             last = size;
         }
         false
     }
+}
 
-    /// Whether A q̈ = b to rounding.
-    fn met(&self, out: &[f64]) -> bool {
-        let (a, b) = (self.here.rows(), &self.here.rhs);
-        all_finite(out)
-            && (0..self.m).all(|c| {
-                let size = b[c].abs() + a.magnitude(c, out);
-                (a.product(c, out) - b[c]).abs() <= LEFT * f64::EPSILON * size
-            })
-    }
+/// Whether A q̈ = b to rounding.
+fn met(here: &Evaluated, out: &[f64]) -> bool {
+    let (a, b) = (here.rows(), &here.rhs);
+    all_finite(out)
+        && b.iter().enumerate().all(|(c, b)| {
+            let size = b.abs() + a.magnitude(c, out);
+            (a.product(c, out) - b).abs() <= LEFT * f64::EPSILON * size
+        })
 }

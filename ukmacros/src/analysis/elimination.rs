@@ -56,6 +56,8 @@ pub(crate) struct Divisor {
     reference: Id,
     /// Whether its row may be left out.
     droppable: bool,
+    /// Inertia that nothing is divided by: it may be zero.
+    may_vanish: bool,
 }
 
 impl Divisor {
@@ -67,6 +69,7 @@ impl Divisor {
             value,
             reference: value,
             droppable: false,
+            may_vanish: false,
         }
     }
 }
@@ -89,6 +92,8 @@ pub(crate) struct Elimination {
     order: Order,
     /// Whether there are no constraints, but for definitions that are substituted.
     free: bool,
+    /// Inertias that do not vary, where multipliers are solved for.
+    inertias: Vec<Id>,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
     place: Vec<Option<usize>>,
     /// Names of pivots, factors and multipliers.
@@ -295,7 +300,13 @@ pub(crate) fn eliminate(
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
     let n = d.force.len();
     let alone = |pivot: &Pivoting| matches!(pivot, Pivoting::Single(k) if *k >= n);
-    let free = own.1 == 0 && !order.pivots.iter().any(alone);
+    let solved = order.pivots.iter().any(alone);
+    let free = own.1 == 0 && !solved;
+    let inertias = if solved {
+        lasting_inertias(d, g)
+    } else {
+        Vec::new()
+    };
     Ok(Elimination {
         acceleration: motion.coordinates,
         multipliers,
@@ -305,6 +316,7 @@ pub(crate) fn eliminate(
         droppings,
         order,
         free,
+        inertias,
         place: place(d, own),
         hints,
     })
@@ -319,7 +331,7 @@ fn multipliers(x: &[Id], common_factor: Id, scales: &[f64], g: &mut Graph) -> Ve
     scaled.collect()
 }
 
-/// Inertia that depends on parameters and is no pivot by itself: it has to be positive, too.
+/// Inertia that depends on parameters and is no pivot by itself: it must not be negative, nor zero where M has more in its row.
 fn inertia<'a>(
     d: &Dynamics,
     pivots: impl Iterator<Item = &'a Divisor>,
@@ -331,8 +343,20 @@ fn inertia<'a>(
     let diagonal = d.mass.iter().filter(|((i, j), _)| i == j);
     let others = diagonal.filter(|((i, _), _)| !pivots.contains(i));
     let others = others.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
-    let others = others.map(|((i, _), m)| Divisor::positive(*i, *m, names));
+    let shared = |i: usize| d.mass.keys().any(|(a, b)| a != b && (*a == i || *b == i));
+    let others = others.map(|((i, _), m)| Divisor {
+        may_vanish: !shared(*i),
+        ..Divisor::positive(*i, *m, names)
+    });
     others.collect()
+}
+
+/// The different entries on the diagonal of M that are numbers or depend on parameters alone.
+fn lasting_inertias(d: &Dynamics, g: &Graph) -> Vec<Id> {
+    let diagonal = d.mass.iter().filter(|((i, j), _)| i == j);
+    let lasting = diagonal.filter(|(_, m)| g.uses(**m).constant() && !g.is_zero(**m));
+    let lasting: BTreeSet<Id> = lasting.map(|(_, m)| *m).collect();
+    lasting.into_iter().collect()
 }
 
 /// Where each coordinate and constraint of `d` stands among those of the mechanism.

@@ -91,7 +91,8 @@ fn multipliers(
         multipliers: true,
     };
     let mut orders = orders(&task, &system.defaults, &system.graph)?;
-    orders.sort_by_key(|order| order.changes);
+    // Where inertia may be zero a multiplier is still unique; by a division through it it would not be known.
+    orders.sort_by_key(|order| (order.inertias(&ideal, &system.graph), order.changes));
     let mut elimination = Err("there is no order of elimination".to_owned());
     for order in orders {
         elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));

@@ -24,7 +24,13 @@
 //!   what is left of the row vanishes as a whole). The constraint's G keeps a²/μ of the coordinate, as if it were still there; so the last
 //!   constraint's share is that of its row of B before any substitution, up to a factor of 2.
 //!
-//! Inertia that is no pivot by itself is checked as a parameter: positive, and finite.
+//! A share says how far λ can be trusted, not how far q̈ = M⁻¹ (Q + Aᵀλ) can: of a light coordinate that constraints tie to heavy ones the
+//! sum all but cancels, and ε |Q|/m of its acceleration is rounding. Whether a coordinate is light in that sense is a matter of a²/m, the
+//! parts that coordinates have in G, and no unit of its own is needed to tell; it can only be where inertias are far apart. So where they
+//! are, by parameters alone, the certificate says so ([`UNEVEN`]), and `ukcore::solver` looks at G: where nothing is light, it takes the
+//! straight line from then on; else it refines.
+//!
+//! Inertia that is no pivot by itself is checked as a parameter: not negative, and finite.
 //!
 //! Without constraints there is no rank to be decided, and no way to q̈ that keeps more digits: M is definite, and its LDLᵀ solves
 //! equations as near to those that are given as any factorisation does, however small its pivots are (Higham 2002, theorem 10.3), those of
@@ -52,6 +58,11 @@ const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 pub(super) const MET: f64 = 2e-12;
+
+/// Inertias of one mechanism that are further apart are looked at where it runs: see the module.
+const SPREAD: f64 = 1e-4;
+/// The certificate where they are, and every pivot is safe: `ukcore::solver` knows it, too.
+const UNEVEN: f64 = 0.75;
 
 /// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is
 /// for is the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds
@@ -272,6 +283,22 @@ impl Elimination {
             .fold(independent, |safe, row| self.meets(*row, d, safe, g))
     }
 
+    /// 1 where inertias are within [`SPREAD`] of each other, else [`UNEVEN`]: computed once, so that it costs nothing.
+    fn even(&self, g: &mut Graph) -> Id {
+        let one = g.one();
+        let Some((first, others)) = self.inertias.split_first() else {
+            return one;
+        };
+        let (mut least, mut most) = (*first, *first);
+        for m in others {
+            least = lesser(least, *m, least, *m, g);
+            most = lesser(*m, most, most, *m, g);
+        }
+        let uneven = g.constant(UNEVEN);
+        let share = g.scale(SPREAD, most);
+        lesser(share, least, one, uneven, g)
+    }
+
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
     /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it. Rows that may be left out are
     /// not, and pivots may be smaller, where `all` is asked for.
@@ -284,7 +311,7 @@ impl Elimination {
         let largest = g.constant(f64::MAX);
         let divisors = || self.divisors.iter().map(|(divisor, _)| divisor);
         let positive: BTreeSet<Id> = divisors()
-            .filter(|d| d.value == d.reference && g.unscaled(d.value).0 > 0.0)
+            .filter(|d| !d.may_vanish && d.value == d.reference && g.unscaled(d.value).0 > 0.0)
             .map(|d| g.unscaled(d.value).1)
             .collect();
         let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
@@ -296,6 +323,8 @@ impl Elimination {
                     true => (value, g.scale(SAFE_SHARE, reference)),
                     false => (value, least(reference, g)),
                 }
+            } else if divisor.may_vanish {
+                (value, zero)
             } else if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
                 (sign_of(value, &positive, g), tiny)
@@ -303,8 +332,9 @@ impl Elimination {
                 let (value, reference) = reduced(value, reference, &positive, g);
                 (value, g.scale(share, reference))
             };
+            let least_known = least == tiny || divisor.may_vanish;
             let holds = match g.as_const(value) {
-                Some(x) => divisor.droppable && !all || x > 0.0 && least == tiny,
+                Some(x) => divisor.droppable && !all || x > 0.0 && least_known,
                 None => false,
             };
             if !holds && known.insert((value, least)) {
@@ -312,7 +342,10 @@ impl Elimination {
             }
         }
         conditions.sort_by_key(|(_, a, b)| !(g.uses(*a).constant() && g.uses(*b).constant()));
-        let mut safe = g.one();
+        let mut safe = match all {
+            true => g.one(),
+            false => self.even(g),
+        };
         let mut chain = Vec::new();
         for (k, value, least) in conditions {
             // In this order a pivot that is not a number is not safe.
@@ -324,6 +357,21 @@ impl Elimination {
             chain.push((k, safe));
         }
         (safe, chain)
+    }
+}
+
+/// `then` where a ≤ b, else `otherwise`; decided here where a and b are numbers, or the same up to one.
+fn lesser(a: Id, b: Id, then: Id, otherwise: Id, g: &mut Graph) -> Id {
+    let known = match (g.as_const(a), g.as_const(b), g.unscaled(a), g.unscaled(b)) {
+        (Some(a), Some(b), ..) => Some(a <= b),
+        // Inertias are positive wherever the certificate holds.
+        (.., (c, a), (d, b)) if a == b => Some(c <= d),
+        _ => None,
+    };
+    match known {
+        Some(true) => then,
+        Some(false) => otherwise,
+        None => g.select(a, b, then, otherwise),
     }
 }
 

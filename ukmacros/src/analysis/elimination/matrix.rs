@@ -276,6 +276,7 @@ impl Matrix {
             value: numerator,
             reference,
             droppable,
+            may_vanish: false,
         };
         let one = g.one();
         // Of a row that may be left out no division is put off.

@@ -3,6 +3,8 @@
 use super::freedoms::freedoms;
 use super::pattern::Pattern;
 use super::{Pair, Pivoting};
+use crate::analysis::dynamics::Dynamics;
+use crate::expr::Graph;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
@@ -32,6 +34,16 @@ impl Order {
             _ => None,
         });
         alone.collect()
+    }
+
+    /// How many coordinates it divides by the inertia of, where that depends on parameters: they may make it small, or zero.
+    pub(crate) fn inertias(&self, d: &Dynamics, g: &Graph) -> usize {
+        let singles = self.pivots.iter().filter_map(|pivot| match *pivot {
+            Pivoting::Single(k) => d.mass.get(&(k, k)),
+            _ => None,
+        });
+        let open = singles.filter(|m| g.uses(**m).constant() && g.as_const(**m).is_none());
+        open.count()
     }
 
     /// Coordinates that are taken together with constraints, and these.
