@@ -527,8 +527,7 @@ const _: () = {
             let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
             let lit = S::from_f64;
             let kinetic = lit(0.5)
-                * (dot_th * dot_th)
-                    .mul_add(i, (dot_y * dot_y).mul_add(m, dot_x * dot_x * m));
+                * m.mul_add(dot_y.mul_add(dot_y, dot_x * dot_x), dot_th * dot_th * i);
             let potential = -(x * right_x);
             ukcore::Energy {
                 kinetic,

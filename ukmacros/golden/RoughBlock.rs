@@ -46,7 +46,7 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 2 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 7 | 13 | 0 | 0 | 1 | 4 |
+/// | straight line, nothing hoisted | 7 | 11 | 0 | 0 | 1 | 4 |
 /// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 2 |
 /// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
 /// | once for a set of parameters | 0 | 17 | 0 | 0 | 1 | 2 |
@@ -280,7 +280,7 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 7,
-                        multiplications: 13,
+                        multiplications: 11,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,
@@ -554,7 +554,7 @@ const _: () = {
             let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
-            let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
+            let kinetic = lit(0.5) * (m * dot_y.mul_add(dot_y, dot_x * dot_x));
             let potential = y * m_g;
             ukcore::Energy {
                 kinetic,

@@ -263,7 +263,7 @@ fn variants(
 
 /// What is emitted with the given solve.
 fn emitted(
-    system: &System,
+    system: &mut System,
     straight: Result<Straight, String>,
     hoisted: Hoisted,
     names: &[String],
@@ -275,7 +275,7 @@ fn emitted(
         &functions,
         names.len(),
         straight.as_ref().ok(),
-        &system.graph,
+        &mut system.graph,
     );
     Chosen {
         solve,

@@ -3,7 +3,8 @@
 use super::elimination::Straight;
 use super::functions::{Function, Role};
 use super::schedule::{Sequence, schedule};
-use crate::expr::{Cost, Func, Graph, Id, Map, Node, Set};
+use super::share::shared;
+use crate::expr::{Cost, Func, Graph, Id, Node, Set};
 
 /// Operations of straight-line code; each node is computed once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,7 +67,7 @@ pub(crate) fn costs(
     functions: &[Function],
     size: usize,
     straight: Option<&Straight>,
-    g: &Graph,
+    g: &mut Graph,
 ) -> Costs {
     let of = |role: Role| {
         let function = functions.iter().find(|f| f.role == role);
@@ -75,6 +76,9 @@ pub(crate) fn costs(
     let unprepared = straight.map(|straight| {
         let mut values = straight.elimination.acceleration.clone();
         values.push(straight.certificate);
+        let shared = shared(g, &values);
+        let last = |id: &Id| shared.get(id).copied().unwrap_or(*id);
+        let values: Vec<Id> = values.iter().map(last).collect();
         cost(g, &values)
     });
     Costs {
@@ -127,8 +131,8 @@ pub(crate) fn count(g: &Graph, needed: &[Id], reciprocals: &Set<Id>) -> Operatio
 }
 
 /// Operations of computing `values`.
-pub(super) fn cost(g: &Graph, values: &[Id]) -> Operations {
-    let program = schedule(g, values, &Map::default(), Sequence::Roots);
+pub(crate) fn cost(g: &Graph, values: &[Id]) -> Operations {
+    let program = schedule(g, values, |_| false, Sequence::Roots);
     count(g, &program.needed, &program.reciprocals)
 }
 

@@ -375,9 +375,18 @@ fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
         let factors = g.factors(*entry);
         common.retain(|factor| factors.contains(factor));
     }
-    let factor = g.product(&common);
+    let mut factor = g.product(&common);
+    // A number that all entries off the diagonal are goes with it: they are multiplied by more often than those on it.
+    let off = d.mass.iter().filter(|((i, j), _)| i != j);
+    let mut off = off.map(|(_, m)| {
+        let rest = g.div(*m, factor);
+        g.as_const(rest).map(f64::abs).filter(|m| m.is_normal())
+    });
+    let first = off.next().flatten();
+    let number = first.filter(|first| off.all(|m| m == Some(*first)));
+    factor = g.scale(number.unwrap_or(1.0), factor);
     let mut scaled = d.clone();
-    if !common.is_empty() {
+    if factor != g.one() {
         let vectors = scaled.force.iter_mut().chain(&mut scaled.nonideal);
         for value in scaled.mass.values_mut().chain(vectors) {
             // Term by term, so that the factor cancels where it can.

@@ -5,7 +5,8 @@ use super::dynamics::Dynamics;
 use super::elimination::Straight;
 use super::hoist::Hoisted;
 use super::schedule::{Program, Sequence, schedule};
-use crate::expr::{Id, Map, System};
+use super::share::shared;
+use crate::expr::{Id, System};
 
 /// A function of `ukcore::Mechanism`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,40 +70,35 @@ pub(crate) struct Function {
 }
 
 /// All functions that are emitted, in the order of the trait.
-pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
+pub(crate) fn functions(system: &mut System, hoisted: &Hoisted) -> Vec<Function> {
     let d = &hoisted.dynamics;
     let (n, m) = (d.force.len(), d.rhs.len());
-    let builder = Builder {
-        system,
-        hints: system.all_hints(),
-    };
-    let filling = |role, slice, len, roots| builder.function(role, vec![(slice, len)], roots);
-    let all = |role, slice, ids: &[Id]| filling(role, slice, ids.len(), elements(slice, ids));
+    let mut builder = Builder { system };
     let mut functions = vec![
-        all(Role::Prepare, Slice::Prepared, &hoisted.values),
+        builder.all(Role::Prepare, Slice::Prepared, &hoisted.values),
         builder.dynamics(d),
-        filling(Role::MassMatrix, Slice::Mass, n * n, mass(d)),
-        filling(Role::Jacobian, Slice::Jacobian, n * m, jacobian(d)),
-        all(Role::Residual, Slice::Phi, &d.phi),
-        all(Role::ResidualRate, Slice::Rate, &d.rate),
+        builder.function(Role::MassMatrix, vec![(Slice::Mass, n * n)], mass(d)),
+        builder.function(Role::Jacobian, vec![(Slice::Jacobian, n * m)], jacobian(d)),
+        builder.all(Role::Residual, Slice::Phi, &d.phi),
+        builder.all(Role::ResidualRate, Slice::Rate, &d.rate),
         builder.function(
             Role::Energy,
             Vec::new(),
             vec![(Place::Kinetic, d.kinetic), (Place::Potential, d.potential)],
         ),
-        all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
+        builder.all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
     ];
     if !hoisted.integrands.is_empty() {
-        let integrands = all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
+        let integrands = builder.all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
         functions.push(integrands);
     }
     if !hoisted.drawing.is_empty() {
-        functions.push(all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
+        functions.push(builder.all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
     }
     if !hoisted.switches.is_empty() {
-        functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
+        functions.push(builder.all(Role::Switching, Slice::Switching, &hoisted.switches));
     }
-    functions.extend(acceleration(system, hoisted));
+    functions.extend(builder.acceleration(hoisted));
     if let Ok(straight) = &hoisted.straight {
         let (values, safe) = (&straight.elimination.correction, straight.certificate);
         functions.push(builder.solve(Role::Correction, straight, values, safe));
@@ -111,53 +107,72 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
 }
 
 /// The straight-line solve for q̈, if there is one.
-pub(crate) fn acceleration(system: &System, hoisted: &Hoisted) -> Option<Function> {
-    let straight = hoisted.straight.as_ref().ok()?;
-    let hints = system.all_hints();
-    let builder = Builder { system, hints };
-    let (values, safe) = (&straight.elimination.acceleration, straight.met_too);
-    Some(builder.solve(Role::Acceleration, straight, values, safe))
+pub(crate) fn acceleration(system: &mut System, hoisted: &Hoisted) -> Option<Function> {
+    Builder { system }.acceleration(hoisted)
 }
 
 /// The values `roots`, which depend on parameters only, as a function like that which prepares others.
 pub(crate) fn of_parameters(system: &System, roots: &[Id]) -> Function {
-    let builder = Builder {
-        system,
-        hints: system.all_hints(),
-    };
     let slices = vec![(Slice::Prepared, roots.len())];
-    builder.function(Role::Prepare, slices, elements(Slice::Prepared, roots))
+    let roots = elements(Slice::Prepared, roots);
+    scheduled(system, Role::Prepare, slices, roots, Sequence::Roots, &[])
+}
+
+fn scheduled(
+    system: &System,
+    role: Role,
+    slices: Vec<(Slice, usize)>,
+    roots: Vec<(Place, Id)>,
+    sequence: Sequence<'_>,
+    exits: &[Id],
+) -> Function {
+    let g = &system.graph;
+    let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
+    let named = |id: Id| system.hints.contains_key(&id) || system.inner_hints.contains_key(&id);
+    let program = schedule(g, &ids, named, sequence);
+    Function {
+        role,
+        slices,
+        roots,
+        exits: exits.to_vec(),
+        operations: count(g, &program.needed, &program.reciprocals),
+        program,
+    }
 }
 
 struct Builder<'a> {
-    system: &'a System,
-    hints: Map<Id, String>,
+    system: &'a mut System,
 }
 
 impl Builder<'_> {
+    /// With what products have in common computed once.
     fn scheduled(
-        &self,
+        &mut self,
         role: Role,
         slices: Vec<(Slice, usize)>,
-        roots: Vec<(Place, Id)>,
+        mut roots: Vec<(Place, Id)>,
         sequence: Sequence<'_>,
         exits: &[Id],
     ) -> Function {
-        let g = &self.system.graph;
         let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
-        let program = schedule(g, &ids, &self.hints, sequence);
-        Function {
-            role,
-            slices,
-            roots,
-            exits: exits.to_vec(),
-            operations: count(g, &program.needed, &program.reciprocals),
-            program,
-        }
+        let new = shared(&mut self.system.graph, &ids);
+        let last = |id: &Id| new.get(id).copied().unwrap_or(*id);
+        self.system.carry_names(&new);
+        roots.iter_mut().for_each(|(_, id)| *id = last(id));
+        let exits: Vec<Id> = exits.iter().map(last).collect();
+        let stages: Vec<Id>;
+        let sequence = match sequence {
+            Sequence::Roots => Sequence::Roots,
+            Sequence::Stages(before) => {
+                stages = before.iter().map(last).collect();
+                Sequence::Stages(&stages)
+            }
+        };
+        scheduled(self.system, role, slices, roots, sequence, &exits)
     }
 
     fn function(
-        &self,
+        &mut self,
         role: Role,
         slices: Vec<(Slice, usize)>,
         roots: Vec<(Place, Id)>,
@@ -165,8 +180,20 @@ impl Builder<'_> {
         self.scheduled(role, slices, roots, Sequence::Roots, &[])
     }
 
+    /// All `ids`, into one slice.
+    fn all(&mut self, role: Role, slice: Slice, ids: &[Id]) -> Function {
+        self.function(role, vec![(slice, ids.len())], elements(slice, ids))
+    }
+
+    /// The straight-line solve for q̈, if there is one.
+    fn acceleration(&mut self, hoisted: &Hoisted) -> Option<Function> {
+        let straight = hoisted.straight.as_ref().ok()?;
+        let (values, safe) = (&straight.elimination.acceleration, straight.met_too);
+        Some(self.solve(Role::Acceleration, straight, values, safe))
+    }
+
     /// M, Q, c, A and b.
-    fn dynamics(&self, d: &Dynamics) -> Function {
+    fn dynamics(&mut self, d: &Dynamics) -> Function {
         let (n, m) = (d.force.len(), d.rhs.len());
         let mut roots = mass(d);
         roots.extend(elements(Slice::Force, &d.force));
@@ -184,7 +211,7 @@ impl Builder<'_> {
     }
 
     /// A straight-line solve for `values`, with its certificate.
-    fn solve(&self, role: Role, straight: &Straight, values: &[Id], safe: Id) -> Function {
+    fn solve(&mut self, role: Role, straight: &Straight, values: &[Id], safe: Id) -> Function {
         let mut roots = elements(Slice::Out, values);
         roots.push((Place::Certificate, safe));
         let sequence = Sequence::Stages(&straight.stages);

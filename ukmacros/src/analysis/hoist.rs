@@ -6,9 +6,11 @@
 
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
+use super::functions::{Function, Role};
 use super::probe::{Probe, Random, Shake};
 use super::switches::Switch;
-use crate::expr::{Graph, Id, Map, Node, Symbol, System, eval, eval_shaken};
+use crate::expr::{Graph, Id, Map, Node, Num, Symbol, System, eval, eval_shaken};
+use std::collections::BTreeMap;
 
 /// States at which both forms of the equations are compared.
 const STATES: usize = 2;
@@ -68,7 +70,7 @@ pub(crate) fn hoist(
         let exits = straight.exits.iter().filter_map(|id| known.get(id));
         straight.exits = exits.copied().collect();
     }
-    system.carry_names(known);
+    system.carry_names(&known);
     Hoisted {
         dynamics,
         outputs,
@@ -150,11 +152,13 @@ impl<'g> Pass<'g> {
                     let part = self.g.sum(&parts);
                     out.push((1.0, self.value(part)));
                 }
-                for (k, term) in varying {
-                    let k = k.get();
-                    out.push((k.signum(), self.scaled(k.abs(), term)));
+                out.extend(self.terms(&varying));
+                let sum = self.g.sum(&out);
+                // One value for all that read it, whatever it has become.
+                match self.readers[&id] {
+                    1 => sum,
+                    _ => self.g.hold_all(sum),
                 }
-                self.g.sum(&out)
             }
             Node::Scale(c, inner) => {
                 let scaled = self.scaled(c.get().abs(), inner);
@@ -168,6 +172,58 @@ impl<'g> Pass<'g> {
                 self.g.with_operands(id, |_, operand| values[&operand])
             }
         }
+    }
+
+    /// Terms of a sum that vary. Those with one number and one prepared factor are added up before these are multiplied by: p a + p b is
+    /// p (a + b).
+    fn terms(&mut self, varying: &[(Num, Id)]) -> Vec<(f64, Id)> {
+        let mut alike: BTreeMap<(u64, Vec<(Id, i32)>), Vec<(f64, Id)>> = BTreeMap::new();
+        for (k, term) in varying {
+            let (sign, size) = (k.get().signum(), k.get().abs());
+            let mut fixed = match self.g.node(*term) {
+                Node::Product(factors) if self.readers[term] == 1 => factors.clone(),
+                _ => Vec::new(),
+            };
+            fixed.retain(|(f, _)| self.g.uses(*f).constant());
+            alike
+                .entry((size.to_bits(), fixed))
+                .or_default()
+                .push((sign, *term));
+        }
+        let mut out = Vec::with_capacity(varying.len());
+        for ((size, fixed), terms) in alike {
+            let size = f64::from_bits(size);
+            if terms.len() == 1 || (size == 1.0 && fixed.is_empty()) {
+                out.extend(
+                    terms
+                        .into_iter()
+                        .map(|(sign, term)| (sign, self.scaled(size, term))),
+                );
+                continue;
+            }
+            let rest = terms.into_iter().map(|(sign, term)| {
+                let rest = match fixed[..] {
+                    [] => self.value(term),
+                    _ => {
+                        let mut rest = self.g.factors(term);
+                        rest.retain(|(f, _)| !self.g.uses(*f).constant());
+                        self.product(1.0, &rest)
+                    }
+                };
+                (sign, rest)
+            });
+            let rest: Vec<(f64, Id)> = rest.collect();
+            let rest = self.g.sum(&rest);
+            if fixed.is_empty() {
+                out.push((size, rest));
+                continue;
+            }
+            let part = self.g.product(&fixed);
+            let part = self.g.scale(size, part);
+            let part = self.value(part);
+            out.push((1.0, self.g.mul(part, rest)));
+        }
+        out
     }
 
     /// k · id, with k > 0 in the prepared part of a product that nothing else reads.
@@ -209,6 +265,7 @@ pub(crate) fn verify(
     dynamics: &Dynamics,
     straight: &Result<Straight, String>,
     hoisted: &Hoisted,
+    functions: &[Function],
 ) -> Option<usize> {
     let g = &system.graph;
     let roots = |dynamics: &Dynamics, straight: &Result<Straight, String>| -> Vec<Id> {
@@ -220,8 +277,21 @@ pub(crate) fn verify(
         }
         ids
     };
-    let before = roots(dynamics, straight);
-    let after = roots(&hoisted.dynamics, &hoisted.straight);
+    let mut before = roots(dynamics, straight);
+    let mut after = roots(&hoisted.dynamics, &hoisted.straight);
+    // What is solved for once more, as it is computed in the end.
+    if let Ok(straight) = straight {
+        let solved = &straight.elimination;
+        for function in functions {
+            let (values, safe) = match function.role {
+                Role::Acceleration => (&solved.acceleration, straight.met_too),
+                Role::Correction => (&solved.correction, straight.certificate),
+                _ => continue,
+            };
+            before.extend(values.iter().chain([&safe]));
+            after.extend(function.roots.iter().map(|(_, id)| *id));
+        }
+    }
     let mut random = Random::new(12);
     let mut suspects: Option<Vec<bool>> = None;
     for _ in 0..STATES {

@@ -18,6 +18,7 @@ mod reactions;
 mod redundant;
 mod regular;
 mod schedule;
+mod share;
 mod sparsity;
 mod structure;
 mod switches;
@@ -27,6 +28,8 @@ pub(crate) use check::check;
 #[cfg(test)]
 pub(crate) use constants::ASSOCIATED;
 pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
+#[cfg(test)]
+pub(crate) use cost::cost;
 pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
 #[cfg(test)]
@@ -36,6 +39,8 @@ pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 pub(crate) use frame::{Turned, opened, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
 pub(crate) use schedule::{Program, Step};
+#[cfg(test)]
+pub(crate) use share::shared;
 pub(crate) use structure::Structure;
 pub(crate) use switches::Switch;
 pub(crate) use verify::verify;
@@ -83,7 +88,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
         costs,
     } = choose(system, &held, &regular, &located, &names);
     let defect = cfg!(debug_assertions)
-        .then(|| hoist::verify(system, &held, &straight, &hoisted))
+        .then(|| hoist::verify(system, &held, &straight, &hoisted, &functions))
         .flatten();
     Analysis {
         dynamics,

@@ -45,7 +45,7 @@ pub(super) fn solve(
         *place = known[&root];
     }
     known.retain(|old, new| old != new);
-    system.carry_names(known);
+    system.carry_names(&known);
     Ok(())
 }
 

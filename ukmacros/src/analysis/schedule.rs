@@ -35,11 +35,11 @@ pub(crate) enum Step {
 }
 
 /// Orders the computation of `roots`: each is stored as soon as it is known; what is used more than once, or has a name
-/// in `named`, becomes a variable.
+/// a name, becomes a variable.
 pub(crate) fn schedule(
     g: &Graph,
     roots: &[Id],
-    named: &Map<Id, String>,
+    named: impl Fn(Id) -> bool,
     sequence: Sequence<'_>,
 ) -> Program {
     let needed = g.reachable(roots);
@@ -71,7 +71,7 @@ pub(crate) fn schedule(
         Node::Product(factors) if matches!(factors[..], [(base, -1)] if reciprocals.contains(&base)) => {
             false
         }
-        _ => uses[id.index()] > 1 || named.contains_key(&id) || pair(id).is_some(),
+        _ => uses[id.index()] > 1 || named(id) || pair(id).is_some(),
     };
     let mut steps = Vec::new();
     let mut done = vec![false; uses.len()];
@@ -121,7 +121,7 @@ pub(crate) fn schedule(
 }
 
 /// Bases that several products divide by.
-fn reciprocals(g: &Graph, needed: &[Id]) -> Set<Id> {
+pub(super) fn reciprocals(g: &Graph, needed: &[Id]) -> Set<Id> {
     let mut divided: Map<Id, usize> = Map::default();
     for id in needed {
         if let Node::Product(factors) = g.node(*id) {

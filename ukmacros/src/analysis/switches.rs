@@ -74,7 +74,7 @@ pub(crate) fn hold(
     for id in held.equations_mut() {
         *id = pass.known[id];
     }
-    system.carry_names(pass.known);
+    system.carry_names(&pass.known);
     let switches = list.into_iter().chain(lengths.list).collect();
     (held, switches)
 }

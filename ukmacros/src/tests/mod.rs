@@ -12,6 +12,7 @@ mod limits;
 mod parts;
 mod random;
 mod regular;
+mod share;
 mod speed;
 mod tree;
 mod units;

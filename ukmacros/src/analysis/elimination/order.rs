@@ -65,7 +65,7 @@ pub(super) enum Taste {
     /// All whose coefficient in a constraint is fixed, those that no other constraint contains first: bodies pinned to each other are taken
     /// leaf by leaf, each with its pins, which is the recursion over articulated bodies.
     Leaves,
-    /// The same with what changes the fewest entries first, as from the ground on.
+    /// The same with what changes the fewest entries first, as from the ground on; among equals what leaves no division to run time.
     Roots,
     /// The same with what was declared last first: of velocities that are given by each other the last, and each joint once it can be.
     Last,
@@ -264,7 +264,7 @@ fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
             [1, usize::from(!pattern.shares_no_inertia(k)), size]
         }
         Taste::Leaves => [0, pattern.filled_by(k), changed],
-        Taste::Roots => [changed, 1, 0],
+        Taste::Roots => [changed, 1, usize::from(!pattern.lasts(k))],
         Taste::Last => [0, 0, changed],
     };
     let waits = pattern.depth(k);

@@ -27,6 +27,9 @@ pub(super) struct Pattern {
     depth: Vec<usize>,
     /// Coordinates whose inertia is declared to be the same at all states.
     steady: BTreeSet<usize>,
+    /// Coordinates what is left of whose inertia is the same at all states, as far as the pattern tells: nothing is divided by it at run
+    /// time.
+    lasting: BTreeSet<usize>,
     /// Those that took the place of two, with the longest chain of rotations before them.
     turned: BTreeMap<usize, usize>,
     /// Constraints that may be left out, and are to be eliminated by themselves.
@@ -51,6 +54,7 @@ impl Pattern {
             coupled: vec![false; size],
             depth: vec![0; size],
             steady: BTreeSet::new(),
+            lasting: BTreeSet::new(),
             turned: BTreeMap::new(),
             kept: BTreeSet::new(),
             fill: BTreeSet::new(),
@@ -75,6 +79,7 @@ impl Pattern {
             pattern.fixed.insert((n + row, i), coefficient);
         }
         pattern.fill.clear();
+        pattern.lasting.clone_from(&pattern.steady);
         pattern
     }
 
@@ -218,6 +223,7 @@ impl Pattern {
                 self.own[a].insert(place);
             }
         }
+        self.lasting.remove(&place);
         self.turned.insert(place, waits);
     }
 
@@ -237,6 +243,11 @@ impl Pattern {
 
     pub(super) fn was_coupled(&self, k: usize) -> bool {
         self.coupled[k]
+    }
+
+    /// Whether what is left of the inertia of `k` is known to be the same at all states.
+    pub(super) fn lasts(&self, k: usize) -> bool {
+        self.lasting.contains(&k)
     }
 
     pub(super) fn depth(&self, k: usize) -> usize {
@@ -309,6 +320,12 @@ impl Pattern {
                 }
             }
         }
+        for a in &of_constraint {
+            let fixed = self.fixed.contains_key(&(pair.constraint, *a));
+            if of_coordinate.contains(a) || pair.massive && !fixed {
+                self.lasting.remove(a);
+            }
+        }
         if pair.massive {
             for a in &of_constraint {
                 self.inertia[*a] = true;
@@ -350,6 +367,7 @@ impl Pattern {
         let later = self.depth[k] + usize::from(k >= self.n);
         for a in &neighbours {
             self.coupled[*a] = true;
+            self.lasting.remove(a);
             self.depth[*a] = self.depth[*a].max(later);
             neighbours.range(..a).for_each(|b| {
                 self.join(*a, *b);

@@ -53,14 +53,15 @@ impl System {
     }
 
     /// Values that were rewritten, old to new, keep their names.
-    pub(crate) fn carry_names(&mut self, rewritten: Map<Id, Id>) {
-        let mut names: Vec<(Id, String)> = self.all_hints().into_iter().collect();
-        names.sort_unstable_by_key(|(old, _)| *old);
-        for (old, name) in names {
-            let Some(new) = rewritten.get(&old) else {
-                continue;
-            };
-            let (_, inner) = self.graph.unscaled(*new);
+    pub(crate) fn carry_names(&mut self, rewritten: &Map<Id, Id>) {
+        let inner = self.inner_hints.iter();
+        let inner = inner.filter(|(old, _)| !self.hints.contains_key(old));
+        let all = self.hints.iter().chain(inner);
+        let all = all.filter_map(|(old, name)| Some((*old, *rewritten.get(old)?, name.clone())));
+        let mut names: Vec<(Id, Id, String)> = all.collect();
+        names.sort_unstable_by_key(|(old, ..)| *old);
+        for (_, new, name) in names {
+            let (_, inner) = self.graph.unscaled(new);
             if !self.graph.operands(inner).is_empty() {
                 self.inner_hints.entry(inner).or_insert(name);
             }

@@ -1,0 +1,207 @@
+//! Factors that several products have in common, multiplied once: of a b c and b c d the b c.
+//!
+//! Of all pairs of factors the one that saves most becomes a value of its own, and a factor of the products that have it, until no pair
+//! saves anything. Reciprocals that several products multiply by are factors as others are. It is done for each function by itself: what
+//! only another one shares would be taken apart for nothing.
+
+use super::schedule::reciprocals;
+use crate::expr::{Graph, Id, Map, Node, Set};
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
+
+/// Higher powers are left to repeated squaring.
+const POWER: i32 = 3;
+
+/// What a product is made of.
+#[derive(Clone, Copy, PartialEq)]
+enum Factor {
+    /// To the power of 1 or −1.
+    Given(Id, i32),
+    Both(usize, usize),
+}
+
+/// A product above its fraction bar.
+struct Product {
+    at: Id,
+    /// Its factors, each as often as it occurs, in ascending order; those that are not looked at are left out.
+    factors: Vec<usize>,
+}
+
+/// Takes common factors out of what `roots` are made of. Returns the new nodes of those that change.
+pub(crate) fn shared(g: &mut Graph, roots: &[Id]) -> Map<Id, Id> {
+    let order = g.reachable(roots);
+    let mut sharing = Sharing::new(&order, g);
+    while let Some((Reverse(_), pair)) = sharing.best.pop_first() {
+        sharing.take(pair);
+    }
+    sharing.rewritten(&order, g)
+}
+
+#[derive(Default)]
+struct Sharing {
+    known: Vec<Factor>,
+    products: Vec<Product>,
+    /// The products that have both factors.
+    with: Map<(usize, usize), BTreeSet<usize>>,
+    /// Pairs by what they save, the most first.
+    best: BTreeSet<(Reverse<usize>, (usize, usize))>,
+}
+
+impl Sharing {
+    fn new(order: &[Id], g: &Graph) -> Self {
+        let mut sharing = Sharing::default();
+        let mut places: Map<(Id, i32), usize> = Map::default();
+        let reciprocals = reciprocals(g, order);
+        let taken = |(f, e): &&(Id, i32)| looked_at(*f, *e, &reciprocals);
+        for id in order {
+            let Node::Product(factors) = g.node(*id) else {
+                continue;
+            };
+            let mut found = Vec::new();
+            for (factor, e) in factors.iter().filter(taken) {
+                let next = sharing.known.len();
+                let place = *places.entry((*factor, e.signum())).or_insert(next);
+                if place == next {
+                    sharing.known.push(Factor::Given(*factor, e.signum()));
+                }
+                found.extend((0..e.abs()).map(|_| place));
+            }
+            found.sort_unstable();
+            if found.len() > 1 {
+                sharing.products.push(Product {
+                    at: *id,
+                    factors: found,
+                });
+            }
+        }
+        for k in 0..sharing.products.len() {
+            for pair in pairs(&sharing.products[k].factors) {
+                sharing.with.entry(pair).or_default().insert(k);
+            }
+        }
+        sharing.with.retain(|_, with| with.len() > 1);
+        let saved = sharing.with.iter();
+        sharing.best = saved
+            .map(|(pair, with)| (Reverse(with.len() - 1), *pair))
+            .collect();
+        sharing
+    }
+
+    /// Enters or removes the product `k` among those that have its pairs.
+    fn count(&mut self, k: usize, enters: bool) {
+        for pair in pairs(&self.products[k].factors) {
+            let with = self.with.entry(pair).or_default();
+            if let Some(saved) = with.len().checked_sub(2) {
+                self.best.remove(&(Reverse(saved + 1), pair));
+            }
+            match enters {
+                true => with.insert(k),
+                false => with.remove(&k),
+            };
+            if let Some(saved) = with.len().checked_sub(2) {
+                self.best.insert((Reverse(saved + 1), pair));
+            }
+        }
+    }
+
+    /// Puts the product of both into all products that have them.
+    fn take(&mut self, pair: (usize, usize)) {
+        let both = self.known.len();
+        self.known.push(Factor::Both(pair.0, pair.1));
+        let with = self.with.get(&pair).cloned().unwrap_or_default();
+        for k in with {
+            self.count(k, false);
+            let factors = &mut self.products[k].factors;
+            for one in [pair.0, pair.1] {
+                if let Ok(at) = factors.binary_search(&one) {
+                    factors.remove(at);
+                }
+            }
+            factors.push(both);
+            self.count(k, true);
+        }
+    }
+
+    /// New nodes of what changes.
+    fn rewritten(&self, order: &[Id], g: &mut Graph) -> Map<Id, Id> {
+        let mut new: Map<Id, Id> = Map::default();
+        let reciprocals = reciprocals(g, order);
+        let changed = |product: &&Product| {
+            let both = |k: &usize| matches!(self.known[*k], Factor::Both(..));
+            product.factors.iter().any(both)
+        };
+        let products: Map<Id, &Product> = self
+            .products
+            .iter()
+            .filter(changed)
+            .map(|p| (p.at, p))
+            .collect();
+        let mut values: Vec<Option<Id>> = vec![None; self.known.len()];
+        for id in order {
+            let of = |id: Id, new: &Map<Id, Id>| new.get(&id).copied().unwrap_or(id);
+            let now = match products.get(id) {
+                Some(product) => {
+                    let mut factors: Vec<(Id, i32)> = Vec::new();
+                    for (factor, e) in g.factors(*id) {
+                        if !looked_at(factor, e, &reciprocals) {
+                            factors.push((of(factor, &new), e));
+                        }
+                    }
+                    for k in &product.factors {
+                        factors.push(self.value(*k, &new, &mut values, g));
+                    }
+                    g.product(&factors)
+                }
+                None if g.operands(*id).iter().any(|o| new.contains_key(o)) => {
+                    g.with_operands(*id, |_, operand| of(operand, &new))
+                }
+                None => continue,
+            };
+            if now != *id {
+                new.insert(*id, now);
+            }
+        }
+        new
+    }
+
+    /// The node of factor `k`, with its exponent.
+    fn value(
+        &self,
+        k: usize,
+        new: &Map<Id, Id>,
+        values: &mut [Option<Id>],
+        g: &mut Graph,
+    ) -> (Id, i32) {
+        match self.known[k] {
+            Factor::Given(id, e) => (new.get(&id).copied().unwrap_or(id), e),
+            Factor::Both(a, b) => {
+                if let Some(value) = values[k] {
+                    return (value, 1);
+                }
+                let both = [a, b].map(|k| self.value(k, new, values, g));
+                let product = g.product(&both);
+                let value = g.hold_all(product);
+                values[k] = Some(value);
+                (value, 1)
+            }
+        }
+    }
+}
+
+/// Whether a power is a factor that may be shared: a division is where others divide by the same.
+fn looked_at(base: Id, exponent: i32, reciprocals: &Set<Id>) -> bool {
+    (1..=POWER).contains(&exponent) || exponent == -1 && reciprocals.contains(&base)
+}
+
+/// The different pairs of factors, which are in ascending order.
+fn pairs(factors: &[usize]) -> Vec<(usize, usize)> {
+    let mut pairs = Vec::with_capacity(factors.len() * (factors.len() - 1) / 2);
+    for (k, a) in factors.iter().enumerate() {
+        for b in &factors[k + 1..] {
+            pairs.push((*a, *b));
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
