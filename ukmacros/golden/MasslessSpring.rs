@@ -32,7 +32,7 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 4 | 2 | 0 | 0 | 0 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 4 | 7 | 2 | 0 | 0 | 4 |
+/// | straight line, nothing hoisted | 4 | 10 | 2 | 0 | 0 | 4 |
 /// | straight line, as emitted | 3 | 5 | 0 | 0 | 0 | 0 |
 /// | correction of a projection | 1 | 1 | 0 | 0 | 0 | 0 |
 /// | once for a set of parameters | 1 | 6 | 2 | 0 | 0 | 4 |
@@ -242,7 +242,7 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 4,
-                        multiplications: 7,
+                        multiplications: 10,
                         divisions: 2,
                         square_roots: 0,
                         transcendentals: 0,

@@ -29,9 +29,9 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 2 | 5 | 0 | 0 | 0 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 5 | 7 | 1 | 0 | 0 | 3 |
-/// | straight line, as emitted | 6 | 7 | 1 | 0 | 0 | 1 |
-/// | correction of a projection | 3 | 5 | 1 | 0 | 0 | 1 |
+/// | straight line, nothing hoisted | 5 | 9 | 1 | 0 | 0 | 3 |
+/// | straight line, as emitted | 6 | 9 | 1 | 0 | 0 | 1 |
+/// | correction of a projection | 3 | 7 | 1 | 0 | 0 | 1 |
 /// | once for a set of parameters | 0 | 3 | 1 | 0 | 0 | 2 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
@@ -241,7 +241,7 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 5,
-                        multiplications: 7,
+                        multiplications: 9,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 0,
@@ -249,7 +249,7 @@ const _: () = {
                     },
                     acceleration: ukcore::Operations {
                         additions: 6,
-                        multiplications: 7,
+                        multiplications: 9,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 0,
@@ -257,7 +257,7 @@ const _: () = {
                     },
                     correction: ukcore::Operations {
                         additions: 3,
-                        multiplications: 5,
+                        multiplications: 7,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 0,
@@ -544,7 +544,7 @@ const _: () = {
             drawing[5] = y;
             drawing[6] = times_l;
         }
-        /// 6 additions, 7 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
+        /// 6 additions, 9 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
         fn acceleration<S: ukcore::Scalar>(
             prepared: &[S],
             t: S,
@@ -556,7 +556,7 @@ const _: () = {
             if const { S::TAPED } {
                 const TAPE: ukcore::Tape = ukcore::Tape {
                     constants: &[2.2250738585072014e-308, 0.0],
-                    code: b"120 bytes",
+                    code: b"134 bytes",
                 };
                 let mut registers = [S::from_f64(0.0); 17];
                 return S::play(
@@ -580,6 +580,7 @@ const _: () = {
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
             let pivot_rod = y.mul_add(y, x * x);
+            let per_pivot_rod = pivot_rod.recip();
             let safe_rod = S::select_le(
                 lit(2.2250738585072014e-308),
                 pivot_rod,
@@ -588,9 +589,8 @@ const _: () = {
             );
             let right_rod = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
             let safe = safe_rod;
-            let safe_part = right_rod / pivot_rod;
-            out[0] = -(x * safe_part);
-            out[1] = y.neg_mul_add(safe_part, -g);
+            out[0] = -(x * right_rod * per_pivot_rod);
+            out[1] = (y * right_rod).neg_mul_add(per_pivot_rod, -g);
             safe
         }
         fn correction<S: ukcore::Scalar>(
@@ -610,6 +610,7 @@ const _: () = {
             let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
             let lit = S::from_f64;
             let pivot_rod = y.mul_add(y, x * x);
+            let per_pivot_rod = pivot_rod.recip();
             let safe_rod = S::select_le(
                 lit(2.2250738585072014e-308),
                 pivot_rod,
@@ -618,10 +619,8 @@ const _: () = {
             );
             let right_rod = lit(0.5) * residual_0;
             let safe = safe_rod;
-            let lambda_rod = right_rod / pivot_rod;
-            let safe_part = lambda_rod;
-            out[0] = -(x * safe_part);
-            out[1] = -(y * safe_part);
+            out[0] = -(x * right_rod * per_pivot_rod);
+            out[1] = -(y * right_rod * per_pivot_rod);
             safe
         }
         fn guess(

@@ -46,7 +46,7 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 2 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 7 | 11 | 0 | 0 | 1 | 4 |
+/// | straight line, nothing hoisted | 7 | 13 | 0 | 0 | 1 | 4 |
 /// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 2 |
 /// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
 /// | once for a set of parameters | 0 | 17 | 0 | 0 | 1 | 2 |
@@ -280,7 +280,7 @@ const _: () = {
                     },
                     unprepared: ukcore::Operations {
                         additions: 7,
-                        multiplications: 11,
+                        multiplications: 13,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 1,

@@ -338,10 +338,9 @@ fn inertia<'a>(
     names: &[String],
     g: &Graph,
 ) -> Vec<Divisor> {
-    let pivots = pivots.filter(|d| g.uses(d.value).constant());
-    let pivots: BTreeSet<usize> = pivots.map(|d| d.position).collect();
+    let pivots: BTreeSet<(usize, Id)> = pivots.map(|d| (d.position, d.value)).collect();
     let diagonal = d.mass.iter().filter(|((i, j), _)| i == j);
-    let others = diagonal.filter(|((i, _), _)| !pivots.contains(i));
+    let others = diagonal.filter(|((i, _), m)| !pivots.contains(&(*i, **m)));
     let others = others.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
     let shared = |i: usize| d.mass.keys().any(|(a, b)| a != b && (*a == i || *b == i));
     let others = others.map(|((i, _), m)| Divisor {

@@ -27,14 +27,27 @@ struct Product {
     factors: Vec<usize>,
 }
 
-/// Takes common factors out of what `roots` are made of. Returns the new nodes of those that change.
+/// Takes common factors out of what `roots` are made of. Returns the new nodes of those that change: none where the longest chain of
+/// operations that wait for each other grows by more cycles than operations are saved.
 pub(crate) fn shared(g: &mut Graph, roots: &[Id]) -> Map<Id, Id> {
     let order = g.reachable(roots);
     let mut sharing = Sharing::new(&order, g);
-    while let Some((Reverse(_), pair)) = sharing.best.pop_first() {
+    let mut saved = 0;
+    while let Some((Reverse(saves), pair)) = sharing.best.pop_first() {
         sharing.take(pair);
+        saved += saves;
     }
-    sharing.rewritten(&order, g)
+    let new = sharing.rewritten(&order, g);
+    let longest = |last: &dyn Fn(Id) -> Id| {
+        let latency = roots.iter().map(|root| g.latency(last(*root)));
+        latency.max().unwrap_or(0)
+    };
+    let before = longest(&|id| id);
+    let after = longest(&|id| new.get(&id).copied().unwrap_or(id));
+    match usize::try_from(after.saturating_sub(before)) {
+        Ok(more) if more <= saved => new,
+        _ => Map::default(),
+    }
 }
 
 #[derive(Default)]
