@@ -82,6 +82,11 @@ pub(crate) fn hoist(
     }
 }
 
+/// Factors with their exponents.
+type Factors = Vec<(Id, i32)>;
+/// Terms with their coefficients.
+type Terms = Vec<(f64, Id)>;
+
 struct Pass<'g> {
     g: &'g mut Graph,
     /// New node of each old one that varies.
@@ -176,8 +181,8 @@ impl<'g> Pass<'g> {
 
     /// Terms of a sum that vary. Those with one number and one prepared factor are added up before these are multiplied by: p a + p b is
     /// p (a + b).
-    fn terms(&mut self, varying: &[(Num, Id)]) -> Vec<(f64, Id)> {
-        let mut alike: BTreeMap<(u64, Vec<(Id, i32)>), Vec<(f64, Id)>> = BTreeMap::new();
+    fn terms(&mut self, varying: &[(Num, Id)]) -> Terms {
+        let mut alike: BTreeMap<(u64, Factors), Terms> = BTreeMap::new();
         for (k, term) in varying {
             let (sign, size) = (k.get().signum(), k.get().abs());
             let mut fixed = match self.g.node(*term) {

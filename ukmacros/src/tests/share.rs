@@ -2,7 +2,7 @@
 
 use super::random::Random;
 use crate::analysis::{cost, shared};
-use crate::expr::{Graph, Id, Point, Symbol, eval};
+use crate::expr::{Func, Graph, Id, Point, Symbol, eval};
 
 /// Multiplications and divisions of `roots` as they are, and with what they share computed once.
 fn both(g: &mut Graph, roots: &[Id]) -> ([usize; 2], Vec<Id>) {
@@ -24,16 +24,20 @@ fn common_factors_are_multiplied_once() {
     let [a, b, c, d] = [0, 1, 2, 3].map(|k| g.symbol(Symbol::Coord(k)));
     let bc = g.mul(b, c);
     let [abc, bcd] = [a, d].map(|x| g.mul(x, bc));
-    assert_eq!(both(&mut g, &[abc, bcd]).0, [4, 3]);
-    assert_eq!(both(&mut g, &[abc, bcd, bc]).0, [5, 3]);
+    // All else waits for it: no chain grows.
+    let slow = g.call1(Func::Sin, a);
+    assert_eq!(both(&mut g, &[slow, abc, bcd]).0, [4, 3]);
+    assert_eq!(both(&mut g, &[slow, abc, bcd, bc]).0, [5, 3]);
+    // A chain that grows by a multiplication for one that is saved.
+    assert_eq!(both(&mut g, &[abc, bcd]).0, [4, 4]);
     // a² b and a² c; a b and a c have no pair in common.
     let [aab, aac] = [b, c].map(|x| g.product(&[(a, 2), (x, 1)]));
-    assert_eq!(both(&mut g, &[aab, aac]).0, [4, 3]);
+    assert_eq!(both(&mut g, &[slow, aab, aac]).0, [4, 3]);
     let [ab, ac] = [b, c].map(|x| g.mul(a, x));
-    assert_eq!(both(&mut g, &[ab, ac]).0, [2, 2]);
+    assert_eq!(both(&mut g, &[slow, ab, ac]).0, [2, 2]);
     // b/d is divided once, without a reciprocal to be multiplied by.
     let [quotient, other] = [a, c].map(|x| g.product(&[(x, 1), (b, 1), (d, -1)]));
-    assert_eq!(both(&mut g, &[quotient, other]).0, [5, 3]);
+    assert_eq!(both(&mut g, &[slow, quotient, other]).0, [5, 3]);
 }
 
 /// Sums of products of sums, with powers and reciprocals: the values stay, and nothing costs more.
