@@ -389,7 +389,10 @@ impl<'m> Lowering<'m> {
             Value::Point(point) => Some(point.place.entries().len()),
             _ => None,
         });
+        // Without either it is where the part lives.
+        let spatial = named().all(|part| part.home == Home::Space);
         let dimension = frames().next().or(of_ground);
+        let dimension = dimension.or(spatial.then_some(3));
         let home = match dimension {
             Some(3) => Home::Space,
             _ => Home::Plane,
