@@ -105,7 +105,10 @@ impl Start {
         let (mechanism, start, options) = self.settings(entry)?;
         let (name, state) = match start.filter(|_| !self.guesses()) {
             Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),
-            None => ("assembled", self.assembled(&mechanism, self.guess(entry)?)?),
+            None => (
+                "assembled",
+                self.assembled(&mechanism, &self.guess(entry)?)?,
+            ),
         };
         Ok(Ready {
             entry,
@@ -223,7 +226,7 @@ impl Start {
     }
 
     /// The nearest consistent state to `guess`.
-    fn assembled(&self, mechanism: &Prepared, guess: State) -> Result<State, Failure> {
+    fn assembled(&self, mechanism: &Prepared, guess: &State) -> Result<State, Failure> {
         assemble(mechanism, guess, &self.place.held()).map_err(|error| match error {
             error @ Error::NotAssembled { .. } => Failure::Failed(format!(
                 "{error}; `--guess NAME=VALUE` gives one, of {}",
