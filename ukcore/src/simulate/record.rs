@@ -8,7 +8,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
-use crate::integrate::{Step, Tolerance};
+use crate::integrate::{PROJECTION_LIMIT, Step, Tolerance};
 use crate::manifold::Projector;
 use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
@@ -80,8 +80,8 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 
-    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of
-    /// what is allowed: if that is above 1, nothing is taken either.
+    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it, and of its
+    /// states as their projections show it, as a part of what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let taken = self.agenda.taken();
         let trajectory = &self.trajectory;
@@ -115,6 +115,7 @@ impl<'s> Recorder<'s> {
             project: trajectory.projected,
             step,
             error: trajectory.error,
+            moved: 0.0,
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
@@ -156,6 +157,7 @@ impl<'s> Recorder<'s> {
         sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
         let reached = self.integrals.as_ref().map(Integrals::reached);
         let (integrals, error) = reached.unwrap_or_default();
+        let error = error.max(within.moved / PROJECTION_LIMIT);
         if error > 1.0 {
             return Ok(error);
         }
@@ -266,6 +268,8 @@ struct Within<'a, 'b> {
     step: &'a Step<'b>,
     /// Most that is expected of the interpolant's.
     error: Tolerance,
+    /// Most that a projection has changed interpolated coordinates or velocities by, as a multiple of that.
+    moved: f64,
     work: &'a mut Work,
 }
 
@@ -313,7 +317,10 @@ impl States for Within<'_, '_> {
                 interpolant.state(t, y);
             }
         };
+        let allowed = self.error.at(largest(q));
         let corrections = projector.interpolated(t, y, most, again)?;
+        let shares = [corrections[0].norm / allowed, corrections[1].norm / most];
+        self.moved = shares.into_iter().fold(self.moved, f64::max);
         work.projections += 1;
         work.projection_iterations += corrections.iter().map(|c| c.iterations).sum::<usize>();
         Ok(())
