@@ -46,6 +46,8 @@ enum Refusal {
     End(Cause),
     /// It goes over a singular position where it was not to.
     Unplanned,
+    /// It does not lead through a state that is known.
+    Astray,
     /// There is a singular position ahead of which nobody can tell whether the motion passes it.
     Undecided(Box<Trouble>),
     /// It is good, with this error, but leaves the branches of its start.
@@ -73,6 +75,8 @@ struct Driver<'p> {
     undone: usize,
     landings: usize,
     rounded: usize,
+    /// Steps over singular positions.
+    passed: usize,
     /// What rounding of a state makes of velocities in a unit of time, in the error norm; when it was measured, if a method is of the kind
     /// that needs it.
     noise: f64,
@@ -136,6 +140,7 @@ impl<'p> Driver<'p> {
             undone: 0,
             landings: 0,
             rounded: 0,
+            passed: 0,
             noise: 0.0,
             measured: explicit.then_some(0),
         }
@@ -162,6 +167,7 @@ impl<'p> Driver<'p> {
             rejected: course.rejected() - self.repeated,
             landings: self.landings,
             rounded: self.rounded,
+            passed: self.passed,
             factorisations: scheme.factorisations(),
         };
         (report, scheme.start().to_vec())
@@ -199,7 +205,7 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
-        self.passage.plans = 0;
+        (self.passage.plans, self.passage.astray) = (0, false);
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
@@ -223,6 +229,7 @@ impl Driver<'_> {
         let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
+            Refusal::Astray => return self.turn_back(),
             Refusal::Unplanned => (self.equations.course.h, None),
             Refusal::Undecided(trouble) => {
                 self.equations.course.blame(Some(trouble));
@@ -265,6 +272,7 @@ impl Driver<'_> {
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
         self.rounded += usize::from(error * rounding > 1.0);
+        self.passed += usize::from(self.passage.passing);
         Ok((next, error))
     }
 
@@ -414,7 +422,8 @@ impl Driver<'_> {
         let next = equations.problem.next_sample();
         let wanted = self.settings.dense
             || equations.course.covers(trial, next)
-            || equations.course.is_beyond(trial);
+            || equations.course.is_beyond(trial)
+            || self.passage.retreated.is_some();
         if wanted && !interpolated {
             let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;
@@ -424,13 +433,18 @@ impl Driver<'_> {
         }
         let coefficients = wanted.then(|| self.scheme.dense());
         let mut step = (equations.course).show(trial, self.scheme.states(), coefficients);
+        if let (Some(_), Some(known)) = (self.passage.retreated, known)
+            && !step.leads_through(known, self.tolerance)
+        {
+            return Err(Refusal::Astray);
+        }
         step.old = known.unwrap_or(step.old);
         step.nearby = equations.nearby;
         step.error = self.scheme.error().filter(|_| wanted);
         let shown = equations.problem.step(&step);
         let next =
             shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))?;
-        self.shown = None;
+        (self.shown, self.passage.retreated) = (None, None);
         Ok(next)
     }
 }
