@@ -8,7 +8,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
-use crate::integrate::{PROJECTION_LIMIT, Step, Tolerance};
+use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
 use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
@@ -157,7 +157,11 @@ impl<'s> Recorder<'s> {
         sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
         let reached = self.integrals.as_ref().map(Integrals::reached);
         let (integrals, error) = reached.unwrap_or_default();
-        let error = error.max(within.moved / PROJECTION_LIMIT);
+        // Steps of one size cannot be repeated shorter.
+        let error = match step.error {
+            Some(_) => error.max(within.moved),
+            None => error,
+        };
         if error > 1.0 {
             return Ok(error);
         }
