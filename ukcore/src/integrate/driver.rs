@@ -75,8 +75,6 @@ struct Driver<'p> {
     undone: usize,
     landings: usize,
     rounded: usize,
-    /// Steps over singular positions.
-    passed: usize,
     /// What rounding of a state makes of velocities in a unit of time, in the error norm; when it was measured, if a method is of the kind
     /// that needs it.
     noise: f64,
@@ -140,7 +138,6 @@ impl<'p> Driver<'p> {
             undone: 0,
             landings: 0,
             rounded: 0,
-            passed: 0,
             noise: 0.0,
             measured: explicit.then_some(0),
         }
@@ -167,7 +164,6 @@ impl<'p> Driver<'p> {
             rejected: course.rejected() - self.repeated,
             landings: self.landings,
             rounded: self.rounded,
-            passed: self.passed,
             factorisations: scheme.factorisations(),
         };
         (report, scheme.start().to_vec())
@@ -272,7 +268,6 @@ impl Driver<'_> {
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
         self.rounded += usize::from(error * rounding > 1.0);
-        self.passed += usize::from(self.passage.passing);
         Ok((next, error))
     }
 

@@ -80,8 +80,8 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 
-    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it, and of its
-    /// states as their projections show it, as a part of what is allowed: if that is above 1, nothing is taken either.
+    /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of
+    /// what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let taken = self.agenda.taken();
         let trajectory = &self.trajectory;
@@ -115,7 +115,6 @@ impl<'s> Recorder<'s> {
             project: trajectory.projected,
             step,
             error: trajectory.error,
-            moved: 0.0,
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
@@ -157,11 +156,6 @@ impl<'s> Recorder<'s> {
         sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
         let reached = self.integrals.as_ref().map(Integrals::reached);
         let (integrals, error) = reached.unwrap_or_default();
-        // Steps of one size cannot be repeated shorter.
-        let error = match step.error {
-            Some(_) => error.max(within.moved),
-            None => error,
-        };
         if error > 1.0 {
             return Ok(error);
         }
@@ -272,8 +266,6 @@ struct Within<'a, 'b> {
     step: &'a Step<'b>,
     /// Most that is expected of the interpolant's.
     error: Tolerance,
-    /// Most that a projection has changed interpolated coordinates or velocities by, as a multiple of that.
-    moved: f64,
     work: &'a mut Work,
 }
 
@@ -321,10 +313,7 @@ impl States for Within<'_, '_> {
                 interpolant.state(t, y);
             }
         };
-        let allowed = self.error.at(largest(q));
         let corrections = projector.interpolated(t, y, most, again)?;
-        let shares = [corrections[0].norm / allowed, corrections[1].norm / most];
-        self.moved = shares.into_iter().fold(self.moved, f64::max);
         work.projections += 1;
         work.projection_iterations += corrections.iter().map(|c| c.iterations).sum::<usize>();
         Ok(())

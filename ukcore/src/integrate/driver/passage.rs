@@ -69,7 +69,7 @@ const SHORT: f64 = 0.8;
 pub(super) struct Passage {
     ahead: Option<Singular>,
     /// The step in hand goes over it.
-    pub(super) passing: bool,
+    passing: bool,
     /// The step in hand, where it goes over it to behind the end of the run; whether none may.
     pub(super) beyond: Option<Trial>,
     pub(super) bounded: bool,
@@ -300,8 +300,7 @@ impl Driver<'_> {
     }
 
     /// A place and state some steps before the start of a run, where nothing says that the position is near: a start so near to one is a
-    /// state of a motion that has come from somewhere. `None` if there is no telling, or the way back leads over a position itself, as
-    /// one from rest does.
+    /// state of a motion that has come from somewhere. `None` if there is no telling.
     fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
         let from = self.equations.course.now;
         let mut settings = *self.settings;
@@ -325,7 +324,7 @@ impl Driver<'_> {
             let (report, end) = other.travel();
             let course = &mut self.equations.course;
             course.attempts += report.steps + report.rejected;
-            if report.passed > 0 || !matches!(report.outcome, Outcome::Reached) {
+            if !matches!(report.outcome, Outcome::Reached) {
                 break;
             }
             (t, y) = (place.t, end.clone());
