@@ -46,6 +46,8 @@ enum Refusal {
     End(Cause),
     /// It goes over a singular position where it was not to.
     Unplanned,
+    /// It does not lead through a state that is known.
+    Astray,
     /// There is a singular position ahead of which nobody can tell whether the motion passes it.
     Undecided(Box<Trouble>),
     /// It is good, with this error, but leaves the branches of its start.
@@ -199,7 +201,7 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
-        self.passage.plans = 0;
+        (self.passage.plans, self.passage.astray) = (0, false);
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
@@ -223,6 +225,7 @@ impl Driver<'_> {
         let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
+            Refusal::Astray => return self.turn_back(),
             Refusal::Unplanned => (self.equations.course.h, None),
             Refusal::Undecided(trouble) => {
                 self.equations.course.blame(Some(trouble));
@@ -414,7 +417,8 @@ impl Driver<'_> {
         let next = equations.problem.next_sample();
         let wanted = self.settings.dense
             || equations.course.covers(trial, next)
-            || equations.course.is_beyond(trial);
+            || equations.course.is_beyond(trial)
+            || self.passage.retreated.is_some();
         if wanted && !interpolated {
             let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;
@@ -424,13 +428,18 @@ impl Driver<'_> {
         }
         let coefficients = wanted.then(|| self.scheme.dense());
         let mut step = (equations.course).show(trial, self.scheme.states(), coefficients);
+        if let (Some(_), Some(known)) = (self.passage.retreated, known)
+            && !step.leads_through(known, self.tolerance)
+        {
+            return Err(Refusal::Astray);
+        }
         step.old = known.unwrap_or(step.old);
         step.nearby = equations.nearby;
         step.error = self.scheme.error().filter(|_| wanted);
         let shown = equations.problem.step(&step);
         let next =
             shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))?;
-        self.shown = None;
+        (self.shown, self.passage.retreated) = (None, None);
         Ok(next)
     }
 }

@@ -41,6 +41,7 @@ use std::str::FromStr;
 use crate::error::Error;
 use crate::mechanism::Branch;
 use crate::numbers::full;
+use crate::scan::largest;
 use crate::spec::SwitchSpec;
 #[cfg(feature = "ensemble")]
 pub(crate) use control::StepSize;
@@ -226,6 +227,9 @@ impl Singular {
     }
 }
 
+/// A run that has gone back, and comes by a known state no nearer than so many times the tolerance, is another motion's.
+const ASTRAY: f64 = 100.0;
+
 /// An accepted step.
 pub(crate) struct Step<'a> {
     /// State at its start.
@@ -241,6 +245,23 @@ pub(crate) struct Step<'a> {
     pub(crate) error: Option<&'a [f64]>,
     /// It is near a singular position, or goes over it.
     pub(crate) nearby: bool,
+}
+
+impl Step<'_> {
+    /// Whether it goes, as nearly as steps with this tolerance do, through a state within it.
+    fn leads_through(&self, known: Sample<'_>, tolerance: Tolerance) -> bool {
+        let mut y = [known.q, known.v].concat();
+        if let Some(interpolant) = &self.interpolant {
+            interpolant.state(known.t, &mut y);
+        }
+        let (q, v) = y.split_at(known.q.len());
+        // By the largest of each: one that is small is no more exact than others.
+        [(known.q, q), (known.v, v)].iter().all(|(known, found)| {
+            let changes = known.iter().zip(*found).map(|(a, b)| (a - b).abs());
+            let allowed = ASTRAY * tolerance.at(largest(known).max(largest(found)));
+            changes.fold(0.0, f64::max) <= allowed
+        })
+    }
 }
 
 /// How to go on after a step.

@@ -77,6 +77,9 @@ pub(super) struct Passage {
     untried: bool,
     /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so less is asked for.
     faint: bool,
+    /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
+    pub(super) retreated: Option<Place>,
+    pub(super) astray: bool,
     /// How often the step in hand has been planned anew.
     pub(super) plans: usize,
     /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
@@ -259,7 +262,7 @@ impl Driver<'_> {
         let course = &self.equations.course;
         let left = course.ahead(position.t);
         let short = left < SHORT * 0.5 * (from + to) * course.h.abs();
-        let known = !self.passage.untried || self.shown.is_some();
+        let known = !self.passage.untried || self.shown.is_some() || self.passage.astray;
         let crossed = position.gap == 0.0 && left > 0.0;
         if known || !crossed || !short || !self.equations.switches.is_empty() {
             return Ok(());
@@ -269,11 +272,25 @@ impl Driver<'_> {
             return Ok(());
         };
         self.passage.before.clear();
-        self.passage.untried = false;
-        let course = &mut self.equations.course;
-        self.shown = Some((course.now.t, self.scheme.start().to_vec()));
-        course.now = place;
-        self.scheme.end_mut().copy_from_slice(&y);
+        let now = self.equations.course.now;
+        (self.passage.untried, self.passage.retreated) = (false, Some(now));
+        self.shown = Some((now.t, self.scheme.start().to_vec()));
+        self.restart(place, &y)
+    }
+
+    /// Goes back to where it had retreated from: the way from before does not lead there, so it is another motion's.
+    pub(super) fn turn_back(&mut self) -> Result<(), Error> {
+        self.passage.astray = true;
+        match (self.passage.retreated.take(), self.shown.take()) {
+            (Some(place), Some((_, y))) => self.restart(place, &y),
+            _ => Ok(()),
+        }
+    }
+
+    /// Goes on from this place and state.
+    fn restart(&mut self, place: Place, y: &[f64]) -> Result<(), Error> {
+        self.equations.course.now = place;
+        self.scheme.end_mut().copy_from_slice(y);
         self.scheme.advance();
         let begun = self.scheme.begin(&mut self.equations);
         begun.map_err(|cause| {
