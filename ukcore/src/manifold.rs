@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
-use crate::scan::{Size, all_finite, largest_difference};
+use crate::scan::{all_finite, largest_difference};
 use crate::solver::Baumgarte;
 
 mod acceptance;
@@ -227,7 +227,7 @@ impl Projector {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);
-        newton.rounding(&at, q, &mut self.manifold.noise, [Size::new(0.0); 2]);
+        newton.rounding(&at, q, &mut self.manifold.noise, [0.0; 2]);
         newton.acceptance.length(0..at.rows())
     }
 
@@ -370,7 +370,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        newton.rounding(at, x, &mut self.noise, [Size::new(0.0); 2]);
+        newton.rounding(at, x, &mut self.noise, [0.0; 2]);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         let mut factored = false;
         self.factors.cautious = true;
@@ -410,7 +410,7 @@ impl Manifold {
     }
 
     /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
-    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: Size<f64>) -> bool {
+    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
         self.newton.acceptance.size = size;
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
@@ -418,7 +418,7 @@ impl Manifold {
 
     /// Why `x` is not on the constraints.
     pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
-        self.meets(at, x, Size::new(0.0));
+        self.meets(at, x, 0.0);
         self.error(at, x)
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::mechanism::{Equations, Evaluated, Prepared};
 use crate::rounding::Rounded;
-use crate::scan::Size;
 
 /// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What
 /// they carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far
@@ -32,14 +31,14 @@ impl Noise {
     }
 
     /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are
-    /// known to rounding of the sizes `least`, where they are less themselves.
+    /// known to rounding of the sizes `least`, in these `units` or 1, where they are less themselves.
     pub(crate) fn go(
         &mut self,
         mechanism: &Prepared,
         t: f64,
         state: [&[f64]; 2],
-        least: [Size<f64>; 2],
-        ease: &[f64],
+        least: [f64; 2],
+        units: &[f64],
     ) {
         let given = mechanism.parameters().iter();
         self.mechanism
@@ -48,7 +47,7 @@ impl Noise {
         self.t = Rounded::unknown(t);
         for ((rounded, x), least) in [&mut self.q, &mut self.v].into_iter().zip(state).zip(least) {
             for (j, (rounded, x)) in rounded.iter_mut().zip(x).enumerate() {
-                *rounded = Rounded::within(*x, least.least(ease, j));
+                *rounded = Rounded::within(*x, units.get(j).unwrap_or(&1.0) * least);
             }
         }
     }

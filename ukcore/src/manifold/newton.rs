@@ -5,7 +5,7 @@ use super::level::{At, Level};
 use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::noise::Noise;
-use crate::scan::{Size, largest, sum};
+use crate::scan::{largest, sum};
 use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
@@ -85,7 +85,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.size = self.acceptance.measured(x);
+        self.acceptance.size = self.acceptance.largest(x);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);
@@ -129,12 +129,8 @@ impl<L: Lanes> Newton<L> {
             let go = le(half, safe, left - met);
             let acceptance = &newton.acceptance;
             let change = acceptance.largest(&newton.step);
-            let size = match acceptance.units.is_empty() {
-                true => acceptance.size.largest,
-                false => acceptance.size.by(1.0),
-            };
             let falls = le(change, L::from_f64(progress) * previous, go);
-            let small = le(change, rounding * size, go);
+            let small = le(change, rounding * acceptance.size, go);
             if any(small) {
                 // Where rounding alone is left: as |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level.
                 let beyond = acceptance.excess(&newton.step, x, rounding, exact);
@@ -238,8 +234,8 @@ impl Newton<f64> {
         noise: &mut Noise,
         factors: Option<&mut Dense>,
     ) {
-        let size = self.acceptance.size.larger(self.acceptance.measured(x));
-        let least = at.level.state(size, self.acceptance.measured(at.other));
+        let size = self.acceptance.size.max(self.acceptance.largest(x));
+        let least = at.level.state(size, self.acceptance.largest(at.other));
         self.rounding(at, x, noise, least.into());
         let Acceptance {
             ease,
@@ -261,21 +257,13 @@ impl Newton<f64> {
         at: &At<'_, f64>,
         x: &[f64],
         noise: &mut Noise,
-        least: [Size<f64>; 2],
+        least: [f64; 2],
     ) {
+        let state = at.level.state(x, at.other).into();
         let Acceptance {
-            ease,
-            units,
-            rounding,
-            ..
+            units, rounding, ..
         } = &mut self.acceptance;
-        noise.go(
-            at.mech,
-            at.t,
-            at.level.state(x, at.other).into(),
-            least,
-            if units.is_empty() { ease } else { units },
-        );
+        noise.go(at.mech, at.t, state, least, units);
         match at.level {
             Level::Position => noise.residual(rounding),
             Level::Velocity => noise.residual_rate(rounding),
