@@ -30,24 +30,27 @@ impl Noise {
         }
     }
 
-    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are
-    /// known to rounding of the sizes `least`, in these `units` or 1, where they are less themselves.
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities j
+    /// are known to rounding of the sizes `least(j)`, where they are less themselves.
     pub(crate) fn go(
         &mut self,
         mechanism: &Prepared,
         t: f64,
         state: [&[f64]; 2],
-        least: [f64; 2],
-        units: &[f64],
+        least: impl Fn(usize) -> [f64; 2],
     ) {
         let given = mechanism.parameters().iter();
         self.mechanism
             .set_parameters(given.map(|p| Rounded::exact(*p)));
         self.mechanism.hold_as(mechanism);
         self.t = Rounded::unknown(t);
-        for ((rounded, x), least) in [&mut self.q, &mut self.v].into_iter().zip(state).zip(least) {
+        for (k, (rounded, x)) in [&mut self.q, &mut self.v]
+            .into_iter()
+            .zip(state)
+            .enumerate()
+        {
             for (j, (rounded, x)) in rounded.iter_mut().zip(x).enumerate() {
-                *rounded = Rounded::within(*x, units.get(j).unwrap_or(&1.0) * least);
+                *rounded = Rounded::within(*x, least(j)[k]);
             }
         }
     }

@@ -17,6 +17,24 @@ pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 /// small because coordinates of one unit need not be of one size.
 pub(super) const NEIGHBOUR: f64 = 1e-4;
 
+/// What coordinates that are zero themselves are measured by: the others.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Size<L> {
+    /// max|x_j|, of coordinates of different units by these.
+    pub(super) largest: L,
+    /// max|x_j|/ease_j, where coordinates move as readily as `ease` says.
+    even: L,
+}
+
+impl Size<f64> {
+    pub(super) fn larger(self, other: Self) -> Self {
+        Size {
+            largest: self.largest.max(other.largest),
+            even: self.even.max(other.even),
+        }
+    }
+}
+
 /// Sizes of the constraints' terms at a place x, and with them the residuals that count as zero there.
 #[derive(Debug, Clone)]
 pub(crate) struct Acceptance<L> {
@@ -27,7 +45,7 @@ pub(crate) struct Acceptance<L> {
     /// Coordinates that do not move at all.
     pub(super) held: Vec<usize>,
     /// What coordinates that are zero themselves are measured by: the size of x where the search began.
-    pub(super) size: L,
+    pub(super) size: Size<L>,
     /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] size).
     terms: Vec<L>,
     /// max|A_cj|, of coordinates of different units by these.
@@ -44,7 +62,10 @@ impl<L: Lanes> Acceptance<L> {
             ease: Vec::new(),
             units: Vec::new(),
             held: Vec::new(),
-            size: zero,
+            size: Size {
+                largest: zero,
+                even: zero,
+            },
             terms: vec![zero; m],
             entries: vec![zero; m],
             rounding: vec![0.0; m],
@@ -58,10 +79,32 @@ impl<L: Lanes> Acceptance<L> {
         self.entries.fill(zero);
         for &(c, j) in pattern {
             let unit = self.units.get(j).unwrap_or(&1.0);
-            let least = L::from_f64(NEIGHBOUR * unit) * self.size;
+            let least = L::from_f64(NEIGHBOUR) * self.least(self.size, j);
             let entry = jacobian[j * m + c].abs();
             self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
             self.entries[c] = (L::from_f64(*unit) * entry).larger(self.entries[c]);
+        }
+    }
+
+    /// The size of `x`.
+    #[inline]
+    pub(super) fn measured(&self, x: &[L]) -> Size<L> {
+        let largest = self.largest(x);
+        let even = match self.ease.is_empty() {
+            true => largest,
+            false => largest_by(x, &self.ease),
+        };
+        Size { largest, even }
+    }
+
+    /// What coordinate j is measured by beside coordinates of this size: coordinates of one unit need not be of one size, which the inertias
+    /// of a search may tell.
+    pub(super) fn least(&self, size: Size<L>, j: usize) -> L {
+        let by = |units: &[f64], size: L| L::from_f64(*units.get(j).unwrap_or(&1.0)) * size;
+        let largest = by(&self.units, size.largest);
+        match self.ease.is_empty() {
+            true => largest,
+            false => largest.min(by(&self.ease, size.even)),
         }
     }
 
@@ -76,8 +119,8 @@ impl<L: Lanes> Acceptance<L> {
     pub(super) fn excess(&self, d: &[L], x: &[L], share: L, exact: bool) -> L {
         let neighbour = L::from_f64(if exact { 0.0 } else { NEIGHBOUR });
         match self.units.is_empty() {
-            true => excess(d, x, share, neighbour * self.size),
-            false => excess_by(d, x, share, neighbour * self.size, &self.units),
+            true => excess(d, x, share, neighbour * self.size.largest),
+            false => excess_by(d, x, share, neighbour * self.size.largest, &self.units),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
 
-use super::acceptance::{Acceptance, ROUNDING, STALLED};
+use super::acceptance::{Acceptance, ROUNDING, STALLED, Size};
 use super::level::{At, Level};
 use crate::dense::Dense;
 use crate::lanes::Lanes;
@@ -85,7 +85,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.size = self.acceptance.largest(x);
+        self.acceptance.size = self.acceptance.measured(x);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);
@@ -130,7 +130,7 @@ impl<L: Lanes> Newton<L> {
             let acceptance = &newton.acceptance;
             let change = acceptance.largest(&newton.step);
             let falls = le(change, L::from_f64(progress) * previous, go);
-            let small = le(change, rounding * acceptance.size, go);
+            let small = le(change, rounding * acceptance.size.largest, go);
             if any(small) {
                 // Where rounding alone is left: as |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level.
                 let beyond = acceptance.excess(&newton.step, x, rounding, exact);
@@ -234,9 +234,9 @@ impl Newton<f64> {
         noise: &mut Noise,
         factors: Option<&mut Dense>,
     ) {
-        let size = self.acceptance.size.max(self.acceptance.largest(x));
-        let least = at.level.state(size, self.acceptance.largest(at.other));
-        self.rounding(at, x, noise, least.into());
+        let size = self.acceptance.size.larger(self.acceptance.measured(x));
+        let least = at.level.state(size, self.acceptance.measured(at.other));
+        self.rounding(at, x, noise, Some(least.into()));
         let Acceptance {
             ease,
             held,
@@ -251,19 +251,22 @@ impl Newton<f64> {
         }
     }
 
-    /// Takes what rounding the residuals at `x` carry, with coordinates and velocities that are known to rounding of the sizes `least`.
+    /// Takes what rounding the residuals at `x` carry, with coordinates and velocities that are known to rounding of the sizes
+    /// `least`, if any.
     pub(super) fn rounding(
         &mut self,
         at: &At<'_, f64>,
         x: &[f64],
         noise: &mut Noise,
-        least: [f64; 2],
+        least: Option<[Size<f64>; 2]>,
     ) {
-        let state = at.level.state(x, at.other).into();
-        let Acceptance {
-            units, rounding, ..
-        } = &mut self.acceptance;
-        noise.go(at.mech, at.t, state, least, units);
+        let (acceptance, state) = (&mut self.acceptance, at.level.state(x, at.other).into());
+        noise.go(at.mech, at.t, state, |j| {
+            least.map_or([0.0; 2], |sizes| {
+                sizes.map(|size| acceptance.least(size, j))
+            })
+        });
+        let rounding = &mut acceptance.rounding;
         match at.level {
             Level::Position => noise.residual(rounding),
             Level::Velocity => noise.residual_rate(rounding),

@@ -154,7 +154,7 @@ impl Manifold {
     /// How large coordinates are next to `guess`, each in its unit: as large as the largest there, or as the lengths in the constraints;
     /// angles half a turn at most.
     pub(crate) fn extents(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Vec<f64> {
-        self.meets(at, guess, 0.0);
+        self.meets(at, guess, guess);
         let length = self.newton.acceptance.length(0..at.rows());
         let mut size = self.size(guess).max(length / TERMS);
         if !(size > 0.0 && size < f64::INFINITY) {
@@ -206,8 +206,7 @@ impl Manifold {
         let free = (0..x.len()).filter(|j| !held.contains(j)).collect();
         let whole = Part::whole(at.rows(), free);
         let (near, cost) = self.search_part(at, &whole, guess, x);
-        let size = self.newton.acceptance.largest(guess);
-        let met = self.meets(at, x, size);
+        let met = self.meets(at, x, guess);
         let projected = (met || near) && self.project(at, x).is_ok();
         match met || projected {
             true => Ok(()),
@@ -224,7 +223,7 @@ impl Manifold {
         guess: &[f64],
         x: &mut [f64],
     ) -> (bool, f64) {
-        let size = self.newton.acceptance.largest(guess);
+        let size = self.newton.acceptance.measured(guess);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
@@ -281,7 +280,7 @@ impl Manifold {
             x.copy_from_slice(&best.x);
         }
         let near = near.unwrap_or_else(|| {
-            self.meets(at, x, size);
+            self.meets(at, x, guess);
             self.newton.is_near(part)
         });
         (near, cost)

@@ -347,7 +347,7 @@ impl<'a> Search<'a> {
         // f, its slopes and its second derivatives, for each of its components.
         let phi = self.position();
         let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
-        (self.noise).go(self.mech, self.t, [&self.q, &u], [0.0; 2], &[]);
+        (self.noise).go(self.mech, self.t, [&self.q, &u], |_| [0.0; 2]);
         self.noise.residual(&mut rounding);
         self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
         let a = self.terms.rows();

@@ -69,7 +69,7 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise.go(&self.mechanism, t, [q, v], [0.0; 2], &[]);
+        self.noise.go(&self.mechanism, t, [q, v], |_| [0.0; 2]);
         self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());
