@@ -2,7 +2,7 @@
 
 use tests::assert_all_close;
 use ukcore::Mechanism;
-use ukcore::spec::ShapeKind::{Line, Mark, Spring, Support};
+use ukcore::spec::ShapeKind::{Line, Spring, Support};
 
 ukcore::multibody! {
     /// A crank, a plate that it carries, a loose body on a spring.
@@ -20,7 +20,9 @@ ukcore::multibody! {
             pin: pin(crank.at([r, 0]), plate.at([0, 0]))
             rail: slot(ground.at([1, 2]), plate.at([a, 0]), [1, 0])
         }
-        forces { spring(plate.at([0, a]), loose.at([0, 0]), 10.0, 0.2) }
+        let tip = free.at([0, r]);
+        forces { spring(plate.at([0, a]), loose.at([0, 0]), 10.0, 0.2) force(ground.at([1, 2]), loose.at([a, a]), 3.0) }
+        output { reach = norm(tip - [1, 2]), inside = plate.at([a / 4.0, a / 4.0]) }
     }
 }
 
@@ -28,14 +30,16 @@ ukcore::multibody! {
 fn bodies_and_joints_have_a_picture() {
     let drawing = Plate::SPEC.drawing;
     let kinds: Vec<_> = drawing.shapes.iter().map(|s| (s.kind, s.numbers)).collect();
-    // Each place on the ground once; the plate through its three points and back, the loose body by its centre alone.
+    // Each place on the ground once; the plate around its points, of which one is within, the others from their centres to what acts on
+    // them and what is reported.
     let expected = [
         (Spring, 4),
         (Support, 2),
         (Line, 4),
+        (Line, 4),
         (Line, 8),
-        (Mark, 2),
-        (Mark, 2),
+        (Line, 4),
+        (Line, 4),
     ];
     assert_eq!((drawing.dimension, &kinds[..]), (2, &expected[..]));
     let angle = 0.7_f64;
@@ -53,16 +57,16 @@ fn bodies_and_joints_have_a_picture() {
         .prepared()
         .drawing(0.0, &q, &[0.0; 12], &mut numbers);
     let crank = [1.0, 2.0, 1.0 + 0.5 * cos, 2.0 + 0.5 * sin];
-    // From where the spring acts.
-    let plate = [4.0, 5.3, 4.0, 5.0, 4.3, 5.0, 4.0, 5.3];
+    let plate = [4.0, 5.0, 4.3, 5.0, 4.0, 5.3, 4.0, 5.0];
     let spring = [4.0, 5.3, 6.0, 7.0];
     let expected = [
         &spring[..],
         &[1.0, 2.0],
+        &[1.0, 2.0, 6.3, 7.3],
         &crank,
         &plate,
-        &[6.0, 7.0],
-        &[8.0, 9.0],
+        &[6.0, 7.0, 6.3, 7.3],
+        &[8.0, 9.0, 8.0, 9.5],
     ]
     .concat();
     assert_all_close("points", &numbers, &expected, 1e-15);

@@ -54,7 +54,7 @@ fn to_rounding_and_to_the_nearest_place() {
                     q: q.clone(),
                     v: rough.clone(),
                 };
-                let assembled = assemble(mechanism, guess, &[]);
+                let assembled = assemble(mechanism, &guess, &[]);
                 let assembled = assembled.unwrap_or_else(|e| panic!("{place}: {e}"));
                 let bound = 1e3 * off * off + 256.0 * f64::EPSILON * speed;
                 let differences = assembled.v.iter().zip(&v).map(|(a, b)| a - b);

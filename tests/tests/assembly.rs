@@ -199,7 +199,7 @@ impl Found {
         reached: bool,
     ) {
         let mechanism = &known.mechanism;
-        match assemble(mechanism, guess.clone(), hold) {
+        match assemble(mechanism, guess, hold) {
             Ok(found) if worst(known, &found) <= 1.0 => self.assembled += 1,
             Ok(found) => {
                 self.silent += 1;

@@ -111,7 +111,7 @@ fn inertia_of_no_rigid_body_is_refused_by_name() {
             .until(0.1);
         let errors = [
             solved.map(drop).map_err(|e| e.to_string()),
-            assemble(mechanism, state, &[])
+            assemble(mechanism, &state, &[])
                 .map(drop)
                 .map_err(|e| e.to_string()),
             run.map(drop).map_err(|e| e.to_string()),
@@ -159,7 +159,6 @@ fn the_name_of_a_body_means_its_coordinates() {
     assert!(State::guess::<Pushed>(&[("b", 1.0)]).is_err());
     let mut guess = State::zeros::<Pushed>();
     guess.q = vec![1.0, 2.0, 0.3, 4.0, 5.0, 0.6];
-    let held =
-        assemble(Pushed::default(), guess.clone(), &["a", "b"]).expect("nothing is in the way");
+    let held = assemble(Pushed::default(), &guess, &["a", "b"]).expect("nothing is in the way");
     assert_eq!(held.q, guess.q);
 }

@@ -39,7 +39,7 @@ fn the_nearest_is_taken_and_as_near_ones_are_told() {
             Ok(found.clone())
         );
         assert_eq!(
-            assemble(&elbow, guess(0.5, y), &[]),
+            assemble(&elbow, &guess(0.5, y), &[]),
             Ok(found.state.clone())
         );
         assert_close("x", found.state.q[0], 0.5, 1e-14);
@@ -84,7 +84,7 @@ fn starts_that_leave_it_open_are_told() {
     }
     // Where a coordinate stays free other ways are not looked for, and what moved is told.
     let free = assemble_with_alternatives(FourBar::default(), &linkage_guess(), &[]).unwrap();
-    let state = assemble(FourBar::default(), linkage_guess(), &[]).unwrap();
+    let state = assemble(FourBar::default(), &linkage_guess(), &[]).unwrap();
     assert_eq!(free.state, state);
     assert!(free.alternatives.is_empty() && !free.moved.is_empty());
     let crank = linkage.branches("crank", &StartOptions::new()).unwrap();

@@ -125,7 +125,7 @@ fn coordinates_may_be_zero() {
                 q: q.to_vec(),
                 v: vec![0.0; 2],
             };
-            let state = assemble(&pendulum, state, &[])
+            let state = assemble(&pendulum, &state, &[])
                 .unwrap_or_else(|e| panic!("{pendulum:?} at {q:?}: {e}"));
             assert_all_close("q", &state.q, &q, 1e-14 + displacement * displacement);
             let run = Simulation::new(pendulum.clone())

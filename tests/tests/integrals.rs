@@ -295,7 +295,7 @@ fn work_and_losses_make_up_the_change_of_energy() {
     sketch.q[Engine::CRANK_ANGLE] = 1.0;
     sketch.v[Engine::CRANK_ANGLE] = 2.0;
     sketch.q[Engine::PISTON_X] = 1.1;
-    let start = ukcore::assemble(Engine::default(), sketch, &["crank.angle"]).unwrap();
+    let start = ukcore::assemble(Engine::default(), &sketch, &["crank.angle"]).unwrap();
     for method in [Method::Dop853, Method::Radau5] {
         let run = Simulation::new(Engine::default())
             .method(method)

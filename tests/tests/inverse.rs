@@ -189,7 +189,7 @@ ukcore::multibody! {
 fn a_crank_takes_the_torque_of_its_slider() {
     let pump = Pump::default();
     let guess = State::guess::<Pump>(&[("th", 0.4), ("x", 0.3)]).unwrap();
-    let start = ukcore::assemble(&pump, guess, &["th"]).unwrap();
+    let start = ukcore::assemble(&pump, &guess, &["th"]).unwrap();
     let turn = kinematics(&pump, &start, &[("th", 0.0..6.0)], &[], 60).unwrap();
     let speed = 7.0;
     let turn = turn.at_speed(speed).unwrap();

@@ -385,7 +385,7 @@ fn placed<M: Mechanism>(off: [f64; 2]) -> State {
     if n == 7 {
         (guess.q[2], guess.q[3]) = (0.4, 1.0);
     }
-    assemble(M::default(), guess, &[]).expect("a start")
+    assemble(M::default(), &guess, &[]).expect("a start")
 }
 
 pub(crate) fn solved<M: Mechanism>(state: &State) -> Solution {

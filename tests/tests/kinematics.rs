@@ -115,7 +115,7 @@ fn a_slider_crank_by_its_crank() {
                     q,
                     v: vec![0.0; 9],
                 };
-                ukcore::assemble(&press, guess, &["crank.angle"]).unwrap()
+                ukcore::assemble(&press, &guess, &["crank.angle"]).unwrap()
             }
         };
         let found = swept(&press, &start, "crank.angle", -PI..TAU, 60);
@@ -199,7 +199,7 @@ fn a_start_may_be_beside_a_dead_centre() {
         guess.q[Press::CRANK_ANGLE] = angle;
         guess.q[Press::ROD_ANGLE] = -beside;
         guess.q[Press::RAM_X] = r * angle.cos() + l;
-        let start = ukcore::assemble(&press, guess, &["crank.angle"]).unwrap();
+        let start = ukcore::assemble(&press, &guess, &["crank.angle"]).unwrap();
         let dead = r * centre.cos() + l;
         for to in [dead - away, dead + away] {
             // The dead centre itself is no position of the sweep.
@@ -232,7 +232,7 @@ fn time_goes_forward_in_all_sweeps() {
             q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
             v: vec![0.0; 5],
         };
-        let start = ukcore::assemble(&arm, guess, &["a", "b"]).unwrap();
+        let start = ukcore::assemble(&arm, &guess, &["a", "b"]).unwrap();
         let sweep = |range| kinematics(&arm, &start, &[("t", range)], &["a", "b"], 8).unwrap();
         let (on, back) = (sweep(0.0..2.0), sweep(2.0..0.0));
         assert_eq!((on.postures.len(), back.postures.len()), (9, 9));
@@ -260,7 +260,7 @@ fn time_goes_forward_in_all_sweeps() {
         &arm,
         &ukcore::assemble(
             &arm,
-            State {
+            &State {
                 t: 0.0,
                 q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
                 v: vec![0.0; 5],
@@ -440,7 +440,7 @@ fn several_freedoms_are_held_or_driven_together() {
         q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
         v: vec![0.0; 5],
     };
-    let start = ukcore::assemble(&arm, guess, &["a", "b"]).unwrap();
+    let start = ukcore::assemble(&arm, &guess, &["a", "b"]).unwrap();
     // One held.
     let found = kinematics(&arm, &start, &[("x", 0.0..4.0)], &["b"], 400).unwrap();
     let reach = (5.0 + 4.0 * 0.5_f64.cos()).sqrt();
@@ -507,7 +507,7 @@ fn a_motor_reaches_its_limit_in_time() {
         q: vec![0.2, 2.0, 1.2],
         v: vec![0.0; 3],
     };
-    let start = ukcore::assemble(&driven, guess, &[]).unwrap();
+    let start = ukcore::assemble(&driven, &guess, &[]).unwrap();
     let found = swept(&driven, &start, "t", 0.0..10.0, 100);
     let limit = ((1.5_f64.powi(2) + 4.0 - 2.2_f64.powi(2)) / 6.0).acos();
     assert_eq!(found.limits.len(), 1);

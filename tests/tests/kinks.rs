@@ -342,7 +342,7 @@ fn random_motions_are_those_of_short_steps_across() {
             q: random.vector(4),
             v: random.vector(4),
         };
-        let start = assemble(&mech, guess, &["x", "y", "z"]).expect("w takes it up");
+        let start = assemble(&mech, &guess, &["x", "y", "z"]).expect("w takes it up");
         let run = |switching, tolerance| {
             Simulation::new(mech.clone())
                 .start(start.clone())
@@ -510,7 +510,7 @@ fn a_stone_that_is_rubbed_in_its_plane_comes_to_rest() {
             q: vec![2.0, -0.5, -0.5],
             v: v.to_vec(),
         };
-        let start = assemble(Stone::default(), guess, &[]).expect("a plane");
+        let start = assemble(Stone::default(), &guess, &[]).expect("a plane");
         let failure = simulation(Stone::default(), start)
             .method(method)
             .until(50.0)

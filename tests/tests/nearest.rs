@@ -112,7 +112,7 @@ fn the_nearest_of_all_ways_is_taken() {
         };
         let all = ways(&mechanism, &guess);
         let least = all.iter().map(|q| far(q)).fold(f64::INFINITY, f64::min);
-        let found = assemble(&mechanism, guess.clone(), &["crank.angle"]).expect("bars reach");
+        let found = assemble(&mechanism, &guess, &["crank.angle"]).expect("bars reach");
         let name = format!("distance of draw {draw}, {spread} off");
         assert_close(&name, far(&found.q), least, 1e-9 * least.max(1e-3));
         several += u32::from(all.len() == 4);
@@ -135,7 +135,7 @@ fn the_nearer_of_two_ways_is_taken() {
     for guess in [-5.0, -0.54, -0.3, 0.8, 5.0, 100.0] {
         let state = [("crank.angle", angle), ("piston.x", guess)];
         let state = State::guess::<Beside>(&state).unwrap();
-        let found = assemble(&mechanism, state, &["crank.angle"]).unwrap();
+        let found = assemble(&mechanism, &state, &["crank.angle"]).unwrap();
         assert_close("piston", found.q[Beside::PISTON_X], expected(guess), 1e-12);
     }
     let start = mechanism.start("left", &[].into()).unwrap();

@@ -147,7 +147,7 @@ fn a_part_runs_by_itself() {
         v: vec![0.0; 6],
     };
     guess.q[Leg::BAR_ANGLE[1]] = 0.7;
-    let start = assemble(Leg::default(), guess, &[]).expect("a start");
+    let start = assemble(Leg::default(), &guess, &[]).expect("a start");
     let run = Simulation::new(Leg::default())
         .tolerance(1e-10)
         .start(start)

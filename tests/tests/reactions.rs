@@ -103,7 +103,7 @@ spatial! {
 
 /// A consistent state near a random sketch, if there is one, its accelerations, and its outputs.
 fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
-    let start = assemble(M::default(), sketch, &[]).ok()?;
+    let start = assemble(M::default(), &sketch, &[]).ok()?;
     let mut solver = Solver::new(M::default(), SolverOptions::default());
     let mut acceleration = vec![0.0; start.q.len()];
     solver
@@ -307,7 +307,7 @@ fn pins_of_a_four_bar_carry_what_newton_and_euler_say() {
         sketch.q[bar] = angle;
     }
     sketch.v[2] = 3.0;
-    let start = assemble(FourBar::default(), sketch, &["bar[0].angle"]).unwrap();
+    let start = assemble(FourBar::default(), &sketch, &["bar[0].angle"]).unwrap();
     let run = Simulation::new(FourBar::default())
         .tolerance(1e-10)
         .start(start)

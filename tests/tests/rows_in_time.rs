@@ -54,7 +54,7 @@ fn run(mechanism: &Prepared, method: Method, span: f64) -> Result<Trajectory, Er
         q: state(0.0, a),
         v: state(a * w, 0.0),
     };
-    let start = assemble(mechanism, guess, &[])?;
+    let start = assemble(mechanism, &guess, &[])?;
     let run = Simulation::new(mechanism)
         .start(start)
         .method(method)
@@ -176,7 +176,7 @@ fn shaken(t0: f64, w: f64, tolerance: f64, method: Method) -> Trajectory {
         q: vec![10.0 / w, 0.1, 1.1],
         v: vec![0.0; 3],
     };
-    let start = assemble(&mechanism, guess, &["x"]).expect("on a circle");
+    let start = assemble(&mechanism, &guess, &["x"]).expect("on a circle");
     let run = Simulation::new(&mechanism)
         .start(start)
         .tolerance(tolerance)
@@ -228,7 +228,7 @@ fn jumps_are_named_early_and_late() {
             let mechanism = Jumps { h, r, at: t0 + 0.5 };
             let start = assemble(
                 &mechanism,
-                State {
+                &State {
                     t: t0,
                     q: vec![0.0],
                     v: vec![0.0],

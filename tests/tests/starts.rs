@@ -50,6 +50,17 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A top on a ball joint of the tree, and a bar on a pin.
+    pub Top {
+        bodies { spatial top { mass: 2.0, inertia: [0.3, 0.4, 0.5] } planar bar { mass: 1.0, inertia: 0.1 } }
+        tree { foot: ball(ground.at([0, 0, 0]), top.at([0, 0, -0.2])), pivot: pin(ground.at([0, 0]), bar.at([0.5, 0])) }
+        start turning(w = 0.3) { [foot.e0, foot.e2] near [0.8, 0.6]; top.omega = [w, 1, -2]; bar.omega = w }
+        start spinning(w = 0.3) { [foot.e0, foot.e2] near [0.8, 0.6]; top.spin = [w, 1, -2] }
+        output { omega = top.omega, spin = top.spin }
+    }
+}
+
 fn state(mechanism: &Prepared, name: &str, options: StartOptions) -> State {
     let state = mechanism.start(name, &options).expect("a start");
     let left = residuals(mechanism, &state).expect("lengths");
@@ -154,13 +165,14 @@ fn masses_many_orders_apart_are_assembled() {
 /// Wherever the constraints put the body, it has the angular velocity that was asked for.
 #[test]
 fn bodies_turn_as_they_are_told() {
-    let hung = Hung::default().prepared();
-    let seen = |state: &State, name: &str| {
-        let mut outputs = vec![0.0; hung.spec().outputs.len()];
-        hung.outputs(state.t, &state.q, &state.v, &mut outputs);
-        let of = |k: usize| hung.spec().output_index(&format!("{name}[{k}]"));
+    let (hung, top) = (Hung::default().prepared(), Top::default().prepared());
+    let of = |mechanism: &Prepared, state: &State, name: &str| {
+        let mut outputs = vec![0.0; mechanism.spec().outputs.len()];
+        mechanism.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let of = |k: usize| mechanism.spec().output_index(&format!("{name}[{k}]"));
         [0, 1, 2].map(|k| outputs[of(k).expect("declared")])
     };
+    let seen = |state: &State, name: &str| of(&hung, state, name);
     for w in [-3.0, 0.0, 0.7] {
         let spun = state(&hung, "spun", [("w", w)].into());
         assert_all_close("ω", &seen(&spun, "omega"), &[w, 1.0, -2.0], 1e-14);
@@ -175,6 +187,12 @@ fn bodies_turn_as_they_are_told() {
         assert_all_close("spin", &seen(&rolled, "spin"), &[w, 1.0, -2.0], 1e-14);
         let [x, y] = Hung::FREE;
         assert_eq!((rolled.v[x], rolled.v[y]), (5.0, w));
+        for (start, name) in [("turning", "omega"), ("spinning", "spin")] {
+            let state = state(&top, start, [("w", w)].into());
+            assert_all_close(name, &of(&top, &state, name), &[w, 1.0, -2.0], 1e-14);
+            let bar = if start == "turning" { w } else { 0.0 };
+            assert_eq!(state.v[Top::PIVOT_ANGLE], bar);
+        }
     }
     let durations: Vec<f64> = Hung::SPEC.starts.iter().map(|s| s.duration).collect();
     assert_eq!(durations, [10.0, 10.0, 2.5, 10.0]);

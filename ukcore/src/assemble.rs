@@ -138,12 +138,12 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// - [`Error::UnknownName`] for a name in `hold`; [`Error::WrongLength`]; [`Error::NonFinite`].
 pub fn assemble(
     mechanism: impl Into<Prepared>,
-    guess: State,
+    guess: &State,
     hold: &[&str],
 ) -> Result<State, Error> {
     let mech: Prepared = mechanism.into();
     let held = held(mech.spec(), hold)?;
-    assembled(&mech, &guess, Held::both(held))
+    assembled(&mech, guess, Held::both(held))
 }
 
 /// The coordinates that `names` mean, in their order, each once.

@@ -298,7 +298,7 @@ impl<'a> Verification<'a> {
         if self.entry.starts.is_empty() {
             let guess = (0..GUESSES).find_map(|_| {
                 let guess = self.anywhere();
-                assemble(&self.mech, State { t: 0.0, ..guess }, &[]).ok()
+                assemble(&self.mech, &State { t: 0.0, ..guess }, &[]).ok()
             });
             match guess {
                 Some(state) => begun.push(state),

@@ -189,9 +189,18 @@ pub(crate) fn suggest<'a>(
     }
 }
 
-/// The one of `names` that is most like `name`, if one is like it; two letters exchanged are one difference.
-pub(crate) fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let distance = |n: &str| strsim::osa_distance(&name.to_lowercase(), &n.to_lowercase());
+/// The one of `names` that is most like `name`, if one is like it; two neighbours exchanged, or all letters in another order, are one
+/// difference.
+fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let sorted = |text: &str| {
+        let mut letters: Vec<char> = text.to_lowercase().chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let distance = |n: &str| match strsim::osa_distance(&name.to_lowercase(), &n.to_lowercase()) {
+        2.. if sorted(name) == sorted(n) => 1,
+        distance => distance,
+    };
     let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
     let (d, n) = names.into_iter().map(|n| (distance(n), n)).min()?;
     (d <= most(n)).then_some(n)

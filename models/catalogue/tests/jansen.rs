@@ -175,7 +175,7 @@ fn sketches<M: Legs>(spread: f64, draws: u64) -> (u64, u64) {
             joints.map(|p| p.map(|x| x + spread * random.signed()))
         });
         let began = std::time::Instant::now();
-        let found = assemble(&mechanism, sketch.clone(), &["crank.angle"]);
+        let found = assemble(&mechanism, &sketch, &["crank.angle"]);
         seconds += began.elapsed().as_secs_f64();
         let Ok(found) = found else {
             continue;

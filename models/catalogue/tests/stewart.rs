@@ -53,7 +53,7 @@ fn it_goes_where_its_legs_drive_it() {
 fn its_pose_follows_from_the_lengths() {
     for t in [0.3, 0.9, 1.7, 2.6] {
         let guess = State { t, ..at(t - 0.15) };
-        let found = assemble(Stewart::default(), guess, &[]).expect("a start");
+        let found = assemble(Stewart::default(), &guess, &[]).expect("a start");
         assert_all_close("q", &found.q, &at(t).q, 1e-12);
         assert_all_close("q̇", &found.v, &at(t).v, 1e-11);
     }

@@ -21,6 +21,7 @@ use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
+use crate::ways;
 
 /// The command-line arguments of the command `animate`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
@@ -162,11 +163,13 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let path = args.out.clone();
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
     let (mut file, mut films, mut about, mut failed) = (None, Vec::new(), None, None);
+    let mut notes = args.runs.angles(entry);
     for run in &runs {
         let differs = run.differs.iter();
         let label = joined(differs.map(|(name, value)| format!("{name} = {value}")));
         let ready = run.start.ready(entry);
         let ready = ready.map_err(|failure| failure.of(&label))?;
+        notes.extend(run.start.other_ways(&ready));
         let film = Film::new(&ready, label.clone())?;
         // Where the page cannot be written it is known before a long computation.
         if file.is_none() {
@@ -177,6 +180,7 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
         failed = failed.or(error.map(|error| Failure::from(error).of(&label)));
         films.push(film);
     }
+    ways::tell(notes);
     if let (Some(file), Some(about)) = (file, about) {
         file.finish_with(page(entry, films, &about)?)?;
     }

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ukcore::Error;
 use ukcore::model::Entry;
@@ -96,8 +97,56 @@ pub fn main(models: &[Entry]) -> ExitCode {
 /// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
 #[must_use]
 pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
-    let mut matches = C::command().get_matches();
+    let matches = C::command().try_get_matches();
+    let mut matches = matches.unwrap_or_else(|error| answered(error).exit());
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
+}
+
+/// What is asked for by other names, and the command that answers it.
+const ANSWERS: [(&str, &str); 7] = [
+    (
+        "equilibrium equilibria rest statics static",
+        "`modes` finds where a model rests, and how it vibrates there",
+    ),
+    (
+        "eigenvalues frequencies vibrations linearise linearize",
+        "`modes` has eigenvalues, frequencies and shapes",
+    ),
+    (
+        "branches assemble assembly dof rank redundant",
+        "`diagnose` has degrees of freedom, redundant constraints and other ways to put a model together",
+    ),
+    (
+        "simulate integrate csv",
+        "`run` integrates a model, and writes its samples by `--csv FILE`",
+    ),
+    (
+        "plot",
+        "`run MODEL --plot FILE NAME…` draws outputs and coordinates",
+    ),
+    (
+        "limits drive workspace",
+        "`kinematics` sweeps drives, and finds the limits of the motion",
+    ),
+    (
+        "code equations",
+        "`explain` shows equations, and by `--code` what runs",
+    ),
+];
+
+/// An error of the command line, with the command that answers what is asked for where there is none of its name.
+fn answered(mut error: clap::Error) -> clap::Error {
+    let asked = match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(asked)) => asked.to_lowercase(),
+        _ => return error,
+    };
+    let mut answers = ANSWERS.iter();
+    if let Some((_, answer)) = answers.find(|(names, _)| names.split(' ').any(|n| n == asked)) {
+        error.remove(ContextKind::SuggestedSubcommand);
+        let tip = ContextValue::StyledStrs(vec![(*answer).into()]);
+        error.insert(ContextKind::Suggested, tip);
+    }
+    error
 }
 
 /// Writes a failure to standard error, if there is one, and returns the code to end the program with.

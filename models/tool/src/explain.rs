@@ -37,7 +37,7 @@ pub fn explain(models: &[Entry], args: &ExplainArgs) -> Result<(), Failure> {
     if let Some(function) = &args.code {
         return code(entry, function);
     }
-    let (explanation, result) = match args.scene.start.ready(entry) {
+    let (explanation, result) = match args.scene.start.noted(entry) {
         Ok(ready) => {
             let there = Explanation::new(&ready.mechanism).at(ready.start, &ready.state);
             (there.0, there.1.map_err(Failure::from))

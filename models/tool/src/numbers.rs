@@ -18,12 +18,17 @@ pub(crate) fn rounded(value: f64) -> f64 {
 /// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
 #[must_use]
 pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
-    let [si, degrees] = [value, rounded(value.to_degrees())].map(|x| short(x, 8));
-    let text = match unit == "rad" && degrees.len() < si.len() {
-        true => format!("{name} = {degrees} deg"),
-        false => format!("{name} = {si} {unit}"),
+    let text = match in_degrees(value, unit) {
+        Some(degrees) => format!("{name} = {degrees} deg"),
+        None => format!("{name} = {} {unit}", short(value, 8)),
     };
     text.trim_end().to_owned()
+}
+
+/// The `value` of a `unit` in degrees, if it is an angle that has fewer digits there.
+pub(crate) fn in_degrees(value: f64, unit: &str) -> Option<String> {
+    let [si, degrees] = [value, rounded(value.to_degrees())].map(|x| short(x, 8));
+    (unit == "rad" && degrees.len() < si.len()).then_some(degrees)
 }
 
 /// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.

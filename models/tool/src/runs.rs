@@ -93,6 +93,23 @@ impl Runs {
             .collect())
     }
 
+    /// What to say of angles that may be meant in degrees.
+    pub(crate) fn angles(&self, entry: &Entry) -> Vec<String> {
+        let start = Start {
+            place: self.place.clone(),
+            ..Start::default()
+        };
+        let given = self.settings.iter().flat_map(|(name, values)| {
+            let values = match values {
+                Values::List(values) => &values[..],
+                Values::Range(range) => &range[..2],
+            };
+            values.iter().map(move |value| (name, value))
+        });
+        let notes = given.filter_map(|(name, value)| start.angle(entry, name, value));
+        notes.take(1).collect()
+    }
+
     fn chosen(&self, plain: &Start, axes: &[(&String, Vec<f64>)], index: usize) -> Variant {
         let (mut start, mut differs, mut rest) = (plain.clone(), Vec::new(), index);
         let mut pick = |count: usize| {

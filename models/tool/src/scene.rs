@@ -1,7 +1,5 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
-use std::io::{self, Write};
-
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
@@ -9,8 +7,9 @@ use ukcore::{Error, Prepared, State, assemble};
 
 use crate::command::find;
 use crate::failure::Failure;
+use crate::numbers::{in_degrees, short};
 use crate::units::{self, Quantity};
-use crate::ways::{Look, Ways};
+use crate::ways;
 
 /// The command-line arguments that name a mechanism, its parameters and its start.
 #[derive(Debug, Args)]
@@ -70,9 +69,6 @@ pub struct Ready<'a> {
     pub duration: f64,
 }
 
-/// Ways that are noted, at most.
-const NOTES: usize = 3;
-
 impl Scene {
     /// Finds the mechanism that is asked for, sets its parameters and puts it together at its start. Where assembly sees other ways to do
     /// that which are as near, notes on standard error tell them.
@@ -81,21 +77,7 @@ impl Scene {
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
     /// nothing near the guess satisfies the constraints.
     pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
-        let ready = self.start.ready(find(models, &self.model)?)?;
-        // A start that is given by other means need not be declared so that it can be assembled.
-        let ways = self.start.ways(ready.entry, Look::AtParts).ok().flatten();
-        let ways = ways.filter(|ways| ways.are_of(&ready));
-        let others: Vec<String> = ways.iter().flat_map(Ways::others).collect();
-        let mut stderr = io::stderr();
-        // It may be closed.
-        for other in others.iter().take(NOTES) {
-            let _ = writeln!(stderr, "note: {other}");
-        }
-        if others.len() > NOTES {
-            let more = others.len() - NOTES;
-            let _ = writeln!(stderr, "note: {more} more such ways; `diagnose` lists them");
-        }
-        Ok(ready)
+        self.start.noted(find(models, &self.model)?)
     }
 }
 
@@ -123,7 +105,10 @@ impl Start {
         let (mechanism, start, options) = self.settings(entry)?;
         let (name, state) = match start.filter(|_| !self.guesses()) {
             Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),
-            None => ("assembled", self.assembled(&mechanism, self.guess(entry)?)?),
+            None => (
+                "assembled",
+                self.assembled(&mechanism, &self.guess(entry)?)?,
+            ),
         };
         Ok(Ready {
             entry,
@@ -132,6 +117,38 @@ impl Start {
             state,
             duration: StartSpec::typical(start),
         })
+    }
+
+    /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and angles
+    /// that may be meant in degrees.
+    pub(crate) fn noted<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
+        let ready = self.ready(entry)?;
+        let given = self.settings.iter();
+        let angles = given.filter_map(|(name, value)| self.angle(entry, name, value));
+        ways::tell(angles.chain(self.other_ways(&ready)));
+        Ok(ready)
+    }
+
+    /// What to say of an angle called `name` for which a bare number is given, if `list` has it in degrees.
+    pub(crate) fn angle(&self, entry: &Entry, name: &str, given: &Quantity) -> Option<String> {
+        let value = given.bare()?;
+        let (default, unit) = self.preset(entry, name)?;
+        in_degrees(default, unit)?;
+        let number = short(value, 8);
+        in_degrees(value, unit).is_none().then(|| {
+            format!("`{name}` is {number} rad, as bare numbers are; for degrees write `{name}={number}deg`")
+        })
+    }
+
+    /// The default of the parameter or option called `name`, and its unit.
+    fn preset(&self, entry: &Entry, name: &str) -> Option<(f64, &'static str)> {
+        let mut options = self.spec(entry).ok().flatten()?.options.iter();
+        if let Some(option) = options.find(|option| option.name == name) {
+            return Some((option.default, option.unit));
+        }
+        let spec = entry.mechanism.spec();
+        let place = *spec.parameter_indices(name).ok()?.first()?;
+        Some((spec.params[place].default, spec.params[place].unit))
     }
 
     /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
@@ -209,7 +226,7 @@ impl Start {
     }
 
     /// The nearest consistent state to `guess`.
-    fn assembled(&self, mechanism: &Prepared, guess: State) -> Result<State, Failure> {
+    fn assembled(&self, mechanism: &Prepared, guess: &State) -> Result<State, Failure> {
         assemble(mechanism, guess, &self.place.held()).map_err(|error| match error {
             error @ Error::NotAssembled { .. } => Failure::Failed(format!(
                 "{error}; `--guess NAME=VALUE` gives one, of {}",

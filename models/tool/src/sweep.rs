@@ -26,6 +26,7 @@ use crate::numbers::count;
 use crate::output::{self, write_whole};
 use crate::progress::Progress;
 use crate::runs::{Runs, Variant};
+use crate::ways;
 
 /// The command-line arguments of the command `sweep`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
@@ -95,6 +96,11 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         columns,
         every: args.every,
     };
+    // Of the ways to begin those of the first run are told.
+    let first = &plan.members[0].start;
+    let ways = first.ready(entry).ok();
+    let ways = ways.map_or(Vec::new(), |ready| first.other_ways(&ready));
+    ways::tell(args.runs.angles(entry).into_iter().chain(ways));
     let head = plan.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;

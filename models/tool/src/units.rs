@@ -73,6 +73,11 @@ impl Quantity {
         self.value == 0.0 && self.unit.is_none()
     }
 
+    /// The number, where it has no unit and needs one.
+    pub(crate) fn bare(&self) -> Option<f64> {
+        (self.unit.is_none() && !self.is_zero()).then_some(self.value)
+    }
+
     /// The number in kg, m, s and rad, in which a bare number is already.
     fn in_si(&self) -> f64 {
         let unit = self.unit.as_ref();

@@ -1,6 +1,7 @@
 //! How else what is asked for could be put together.
 
 use std::fmt;
+use std::io::{self, Write};
 
 use ukcore::model::Entry;
 use ukcore::{Assembled, assemble_with_alternatives, branches};
@@ -55,6 +56,37 @@ impl Start {
     }
 }
 
+/// Ways that are noted, at most.
+const NOTES: usize = 3;
+
+impl Start {
+    /// A sentence for each way that assembly sees to put together what stands there as near to what was asked for.
+    pub(crate) fn other_ways(&self, ready: &Ready<'_>) -> Vec<String> {
+        // A start that is given by other means need not be declared so that it can be assembled.
+        let ways = self.ways(ready.entry, Look::AtParts).ok().flatten();
+        let ways = ways.filter(|ways| ways.found.state == ready.state);
+        let mut others: Vec<String> = ways.iter().flat_map(Ways::others).collect();
+        if others.len() > NOTES {
+            let more = others.len() - NOTES;
+            others.truncate(NOTES);
+            others.push(format!("{more} more such ways; `diagnose` lists them"));
+        }
+        others
+    }
+}
+
+/// Writes notes to standard error, each once.
+pub(crate) fn tell(notes: impl IntoIterator<Item = String>) {
+    let mut told = Vec::new();
+    for note in notes {
+        if !told.contains(&note) {
+            // It may be closed.
+            let _ = writeln!(io::stderr(), "note: {note}");
+            told.push(note);
+        }
+    }
+}
+
 /// Coordinates that differ, at most.
 const SHOWN: usize = 6;
 
@@ -71,11 +103,6 @@ fn listed(changes: &[(&str, f64)]) -> String {
 }
 
 impl Ways {
-    /// Whether they are ways of putting together what stands there as it does.
-    pub(crate) fn are_of(&self, ready: &Ready<'_>) -> bool {
-        self.found.state == ready.state
-    }
-
     /// A sentence for each other way that is as near.
     pub(crate) fn others(&self) -> impl Iterator<Item = String> {
         let (said, decides) = match self.guessed {

@@ -47,7 +47,7 @@ fn what_does_not_decide_a_motion_is_refused() {
     let arm = Arm::default().prepared();
     let start = ukcore::assemble(
         &arm,
-        State {
+        &State {
             t: 0.0,
             q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
             v: vec![0.0; 5],

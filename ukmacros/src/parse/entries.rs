@@ -108,6 +108,12 @@ pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Pa
         braced!(given in input);
         while !given.is_empty() {
             let name: Ident = given.parse()?;
+            if given.peek(Token![=]) {
+                let message = format!("what is given to a part is written `{name}: 1.0`, with `:`");
+                let error = given.error(message);
+                let _: TokenStream = given.parse()?;
+                return Err(error);
+            }
             let value = match given.parse::<Option<Token![:]>>()? {
                 Some(_) => expression(&given, diag)?,
                 // As in Rust, `{ mass }` is short for `{ mass: mass }`.
@@ -219,6 +225,10 @@ pub(super) fn acting(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<
 
 pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let key = coordinates(input, diag)?;
+    if input.peek(syn::token::Paren) {
+        let message = "a generalised force belongs to a coordinate; a force at a point of a body goes under `forces`: `force(link.at([0, 0]), [fx, fy])`";
+        return Err(syn::Error::new(key.name.span(), message));
+    }
     let _: Token![:] = input.parse()?;
     let value = expression(input, diag)?;
     Ok(Entry { key, value })
@@ -308,6 +318,18 @@ pub(super) fn start(
     }
     let mut guesses = Vec::new();
     blocks(input, &mut guesses, diag, guess)?;
+    if input
+        .fork()
+        .parse::<Ident>()
+        .is_ok_and(|word| word == "until")
+    {
+        let word: Ident = input.parse()?;
+        let message = format!(
+            "`until` of a start stands before its braces: `start {name} until 2.0 {{ … }}`"
+        );
+        diag.error(word.span(), message);
+        input.call(syn::Expr::parse_without_eager_brace)?;
+    }
     Ok(Start {
         docs,
         name,

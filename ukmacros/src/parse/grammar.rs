@@ -9,7 +9,7 @@ use super::entries::{
 };
 use super::expr::{Expr, Range};
 use super::item::{Block, Const, Declaration, Key, Measure, Merged, Section};
-use super::{nesting, units};
+use super::{nesting, units, words};
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
@@ -24,6 +24,7 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
         diag.damage(place, "nested too deeply; name parts of it with `let`");
         tokens = nesting::head(tokens);
     }
+    let tokens = words::free(tokens, diag);
     let marked = units::mark(&tokens, diag);
     let units = marked.is_some();
     let mut read = None;
@@ -379,6 +380,10 @@ pub(super) fn blocks<T>(
         let before = diag.len();
         let block = if body.peek(Token![for]) {
             for_block(&body, diag, parse)
+        } else if body.peek(Token![let]) {
+            Err(body.error(
+                "`let` stands beside sections, before the first that uses it, not within one",
+            ))
         } else {
             parse(&body, diag).map(Block::One)
         };

@@ -7,6 +7,7 @@ mod item;
 mod nesting;
 mod table;
 mod units;
+mod words;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;

@@ -332,7 +332,10 @@ cases! {
     joint_twice: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a.at([1, 0]), b.at([0, 0])), «d»: pin(a.at([1, 0]), b.at([0, 0])) }" => "constraint `d` is the same equation as `c`; remove one";
     component_twice: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { c: [x, y] = [sin(z), cos(z)]  «d»: [x, z] = [sin(z), t] }" => "constraint `d[0]` is the same equation as `c[0]`; remove one";
     field_of_an_unknown_body: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = «amr».x, p = amr.angle }" => "unknown name `amr`; did you mean `arm`?";
-    field_of_a_struct: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = other.«x» }" => "no fields here";
+    parameter_of_a_struct: "params { m = 1.0 } bodies { planar arm { mass: self.«m», inertia: 1 } }" => "a parameter or coordinate is written by its name alone";
+    vector_for_a_point: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: disc(«a.centre», [0, 0, 1], 0.1) }" => "`q` of `disc(q, u, r)` is a point of a body, such as";
+    misspelt_body: "bodies { planar arm { mass: 1, inertia: 1 } } force { «rma».x: 1, rma.y: 1 } output { o = rma.x }" => "unknown name `rma`; did you mean `arm`?";
+    no_body: "bodies { planar arm { mass: 1, inertia: 1 } } output { o = «other».x, p = other.y }" => "unknown name `other`; what has fields here is `arm`";
     function_as_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { c: «norm([x, y])» }" => "a constraint is an equation: `lhs = rhs`";
     velocity_in_a_joint: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «rolls(a.at([0, 0, 0]), [0, 0, 1], 1)» }" => "move the constraint under `nonholonomic`";
     joint_that_acts: "bodies { planar a { mass: 1, inertia: 1 } } forces { «pin»(ground.at([0, 0]), a.at([0, 0])) }" => "`pin` is a joint; it stands under `holonomic`";

@@ -209,7 +209,11 @@ cases! {
     output_named_as_a_coordinate: "coords { x } mass { x: 1.0 } output { «x» = x }" => "is a coordinate and in the output anyway";
     let_declared_twice: "coords { x } let u = x; let «u» = 2.0 * x; mass { x: 1.0 }" => "`u` is declared twice";
     let_used_before: "coords { x } let a = «b»; let b = x; mass { x: 1.0 }" => "unknown name `b`";
+    reserved_word_as_a_name: "bodies { planar «box» { mass: 1.0, inertia: 1.0 } } holonomic { p: pin(ground.at([0, 0]), box.at([1, 0])) } output { a = box.x }" => "`box` is a reserved word of Rust; use another name, such as `box_`";
     // Syntax.
+    let_within_a_section: "coords { x } mass { x: 1.0 } output { «let» u = x; o = u }" => "`let` stands beside sections, before the first that uses it";
+    until_behind_the_braces: "coords { x } mass { x: 1.0 } start a { x = 1.0 } «until» 3.0 output { o = x }" => "`until` of a start stands before its braces: `start a until 2.0 { … }`";
+    generalised_force_of_a_point: "bodies { planar a { mass: 1.0, inertia: 1.0 } } force { «a».at([1, 0]): [0, 1] }" => "goes under `forces`: `force(link.at([0, 0]), [fx, fy])`";
     caret_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x «^» 2 = 1.0 }" => "`^` is not a power in Rust; write `x.powi(2)`";
     double_star_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x * «*»2.0 = 1.0 }" => "`**` is not a power in Rust";
     remainder: "coords { x } mass { x: 1.0 } force { x: x «%» 2.0 }" => "`%` cannot be differentiated";

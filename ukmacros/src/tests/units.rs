@@ -227,10 +227,10 @@ cases! {
     spatial_body: "params { m = 1 [kg] } bodies { spatial a { mass: 2 * m, inertia: «[m, m, m]» } }" => "expected kg m^2, the inertia of a body, found kg";
     place: "params { m = 1 [kg] } bodies { planar a { mass: m, inertia: 1 } } output { o = a.at(«[2 * m, 0]») }" => "expected m, a place, found kg";
     place_of_a_joint: "params { j = 1 [kg m^2] } bodies { planar a { mass: 1, inertia: j } } tree { c: pin(ground.at(«[j, 0]»), a.at([0, 0])) }" => "expected m, a place, found kg m^2";
-    rod: "params { l = 1 [m^2] } bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rod(ground.at([0, 0]), a.at([0, 0]), l)» }" => "m^4";
-    spring: "params { k = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { «spring(ground.at([0, 0]), a.at([0, 0]), k, 0.1)» }" => "expected J, the energy of `spring`, found kg m^3/s^2";
-    damper: "params { c = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { damper(ground.at([0, 0]), a.at([0, 0]), «c») }" => "expected N, what acts by `damper`, found W";
-    torque: "params { f = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { force(a.at([0, 0]), [f, f]) torque(a, «f») }" => "expected J, what acts by `torque`, found N";
+    rod: "params { l = 1 [m^2] } bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: rod(ground.at([0, 0]), a.at([0, 0]), «l») }" => "`l` of `rod(p, q, l)` is in m, found m^2";
+    spring: "params { k = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { spring(ground.at([0, 0]), a.at([0, 0]), «k», 0.1) }" => "`k` of `spring(p, q, k, l)` is in N/m, found N";
+    damper: "params { c = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { damper(ground.at([0, 0]), a.at([0, 0]), «c») }" => "`c` of `damper(p, q, c)` is in N s/m, found N";
+    torque: "params { f = 1 [N] } bodies { planar a { mass: 1, inertia: 1 } } forces { force(a.at([0, 0]), [f, f]) torque(a, «f») }" => "`m` of `torque(b, m)` is in N m, found N";
     start: "params { l = 1 [m] } coords { x [m], y [m] } mass { x: 1, y: 1 } start s(v = 1 [m/s]) { x = «v»; dot(x) = v; y near «2 * l * l»; dot(y) = 1 }" => "expected m, as this coordinate is, found m/s", "found m^2";
     start_of_a_body: "bodies { planar a { mass: 1, inertia: 1 } } start s(v = 1 [rpm]) { a.angle = 30 [deg]; dot(a.angle) = v; a.x = «2 [rad]» }" => "expected m, as this coordinate is, found a plain number";
     output_unit: "coords { x [m] } mass { x: 1 } output { o [mm] = x, p [N] = «x» }" => "expected N, as `[N]` says, found m";

@@ -22,10 +22,10 @@
   };
   const radius = (shape, picture) => Math.abs(picture[shape.start + shape.numbers - 1]);
 
-  // What all pictures lie in.
-  const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
-  for (const picture of runs.flatMap((run) => run.pictures).filter(finite)) {
-    for (const shape of shapes) {
+  // What shapes of a picture lie in.
+  const bounds = (picture, chosen) => {
+    const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
+    for (const shape of chosen) {
       const r = shape.kind === "circle" ? radius(shape, picture) : 0;
       for (const point of points(shape, picture)) {
         point.forEach((x, i) => {
@@ -34,10 +34,32 @@
         });
       }
     }
+    return { low, high };
+  };
+  const all = runs.flatMap((run) => run.pictures).filter(finite);
+  const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
+  // Along axes on which the mechanism goes much farther than it is large, the view goes with it.
+  const moving = shapes.filter((shape) => shape.kind !== "support");
+  let extent = 0;
+  for (const picture of all) {
+    const whole = bounds(picture, shapes), own = bounds(picture, moving);
+    whole.low.forEach((x, i) => {
+      low[i] = Math.min(low[i], x);
+      high[i] = Math.max(high[i], whole.high[i]);
+      extent = Math.max(extent, own.high[i] - own.low[i]);
+    });
   }
-  const centre = low.map((x, i) => (x + high[i]) / 2);
   const spans = low.map((x, i) => high[i] - x);
-  const size = Math.max(...spans) || 1;
+  const follows = spans.map((span) => extent > 0 && span > 8 * extent);
+  const travels = follows.includes(true);
+  const shown = spans.map((span, i) => (follows[i] ? 3 * extent : span));
+  const size = Math.max(...shown) || 1;
+  const centre = (picture) => {
+    const { low: a, high: b } = travels ? bounds(picture, moving) : { low, high };
+    return low.map((x, i) => (follows[i] ? (a[i] + b[i]) / 2 : (x + high[i]) / 2));
+  };
+  // The distance of lines on the ground that such a view passes: 1, 2 or 5 times a power of ten.
+  const mesh = [1, 2, 5, 10].map((k) => k * 10 ** Math.floor(Math.log10(size / 4))).find((x) => x >= size / 4);
 
   // A spring from p to q as a zigzag whose windings keep their width.
   const zigzag = (p, q, width) => {
@@ -66,8 +88,13 @@
   // The plane: one SVG whose nodes are moved.
   const plane = (stage, pictures) => {
     const margin = 0.08 * size, unit = size / 100;
-    const view = [low[0] - margin, -high[1] - margin, spans[0] + 2 * margin, spans[1] + 2 * margin];
-    const svg = svgNode("svg", { viewBox: view.join(" "), role: "img", "aria-label": "the mechanism" });
+    const [width, height] = shown.map((span) => span + 2 * margin);
+    const svg = svgNode("svg", { role: "img", "aria-label": "the mechanism" });
+    const look = (picture) => {
+      const [x, y] = centre(picture);
+      svg.setAttribute("viewBox", [x - width / 2, -y - height / 2, width, height].join(" "));
+    };
+    look(all[0] || []);
     stage.append(svg);
     const stroke = (colour, width) => ({
       fill: "none", stroke: colour, "stroke-width": width, "stroke-linejoin": "round", "stroke-linecap": "round",
@@ -88,9 +115,25 @@
       }
     });
     const path = (list) => list.map(([x, y]) => `${x},${-y}`).join(" ");
+    // Lines that stand still where the view moves.
+    const ground = svgNode("path", stroke("#e4e4e4", 0.3 * unit));
+    svg.prepend(ground);
+    const lines = (picture) => {
+      const [x, y] = centre(picture), out = [];
+      for (let k = -8; k <= 8; k += 1) {
+        const [across, up] = [x, y].map((at) => (Math.round(at / mesh) + k) * mesh);
+        if (follows[0]) out.push(`M${across},${-y - 2 * height}v${4 * height}`);
+        if (follows[1]) out.push(`M${x - 2 * width},${-up}h${4 * width}`);
+      }
+      ground.setAttribute("d", out.join(""));
+    };
     return (k) => {
       const picture = pictures[k];
       if (!finite(picture)) return;
+      if (travels) {
+        look(picture);
+        lines(picture);
+      }
       shapes.forEach((shape, i) => {
         const node = nodes[i], list = points(shape, picture), [x, y] = list[0];
         switch (shape.kind) {
@@ -130,9 +173,9 @@
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "the mechanism; drag to turn it");
     stage.append(canvas);
-    let shown = 0;
+    let painted = 0;
     const paint = (k) => {
-      shown = k;
+      painted = k;
       const picture = pictures[k];
       if (!finite(picture)) return;
       const { azimuth, height, zoom } = view;
@@ -141,11 +184,12 @@
       canvas.height = h * ratio;
       const pen = canvas.getContext("2d");
       pen.scale(ratio, ratio);
-      const scale = zoom * 0.8 * Math.min(w, h) / (Math.hypot(...spans) || 1);
+      const scale = zoom * 0.8 * Math.min(w, h) / (Math.hypot(...shown) || 1);
+      const middle = centre(picture);
       const [ca, sa, ch, sh] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(height), Math.sin(height)];
       // z up; the depth grows away from the eye.
       const seen = (p) => {
-        const [x, y, z] = p.map((value, i) => value - centre[i]);
+        const [x, y, z] = p.map((value, i) => value - middle[i]);
         const right = ca * x - sa * y, away = sa * x + ca * y;
         return [w / 2 + scale * right, h / 2 - scale * (ch * z + sh * away), ch * away - sh * z];
       };
@@ -175,9 +219,10 @@
       });
       const chain = (list, colour, width) => list.slice(1).forEach((q, i) => segment(list[i], q, colour, width));
       // The ground: a square below, so that it is seen how things lie.
-      const side = 0.5 * Math.max(spans[0], spans[1], 1e-9 * size), floor = low[2];
+      const side = 0.5 * Math.max(shown[0], shown[1], 1e-9 * size), floor = follows[2] ? middle[2] - shown[2] / 2 : low[2];
+      const [x, y] = middle.map((at, i) => (follows[i] ? Math.round(4 * at / side) * side / 4 : at));
       for (let i = -4; i <= 4; i += 1) {
-        const s = i / 4 * side, [x, y] = centre;
+        const s = i / 4 * side;
         chain([seen([x + s, y - side, floor]), seen([x + s, y + side, floor])], "#ececec", 1);
         chain([seen([x - side, y + s, floor]), seen([x + side, y + s, floor])], "#ececec", 1);
       }
@@ -242,8 +287,8 @@
       view.zoom *= Math.exp(-0.001 * event.deltaY);
       view.painters.forEach((again) => again());
     }, { passive: false });
-    view.painters.push(() => paint(shown));
-    window.addEventListener("resize", () => paint(shown));
+    view.painters.push(() => paint(painted));
+    window.addEventListener("resize", () => paint(painted));
     return paint;
   };
 
@@ -299,9 +344,10 @@
     const panel = document.createElement("figure");
     byId("stage").append(panel);
     const show = (dimension === 3 ? space : plane)(panel, run.pictures);
-    if (run.label || run.ended) {
+    const along = travels && dimension === 2 ? `The view goes along; its lines are ${mesh} apart` : "";
+    if (run.label || run.ended || along) {
       const caption = document.createElement("figcaption");
-      caption.textContent = [run.label, run.ended].filter(Boolean).join(". ");
+      caption.textContent = [run.label, run.ended, along].filter(Boolean).join(". ");
       if (runs.length > 1) caption.style.borderColor = colour(k);
       panel.append(caption);
     }

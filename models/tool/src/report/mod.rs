@@ -144,7 +144,7 @@ fn jobs<'a>(models: &'a [Entry], args: &ReportArgs) -> Result<Vec<Job<'a>>, Fail
         return Err(Failure::Usage(message.to_owned()));
     };
     // What is wrong with them is told before anything is written.
-    let ready = args.start.ready(entry)?;
+    let ready = args.start.noted(entry)?;
     Ok(vec![Job {
         name: entry.id.clone(),
         entry,

@@ -181,12 +181,12 @@ impl<'a> Subject<'a> {
                 mechanism.set(name, self.mechanism.parameters()[i] * value)?;
                 state = match &self.start {
                     Some((name, options)) => self.entry.start(&mechanism, name, options)?,
-                    None => assemble(&mechanism, state, &[])?,
+                    None => assemble(&mechanism, &state, &[])?,
                 };
             }
             Change::Speed => {
                 state.v.iter_mut().for_each(|v| *v *= value);
-                state = assemble(&mechanism, state, &[])?;
+                state = assemble(&mechanism, &state, &[])?;
             }
             Change::Tolerance => tolerance = value.max(SMALLEST_TOLERANCE),
         }
@@ -313,7 +313,7 @@ impl Motion<'_> {
         for (k, (place, size)) in places.enumerate() {
             *place += NUDGE * size * if (k % n).is_multiple_of(2) { 1.0 } else { -1.0 };
         }
-        let nudged = assemble(self.mechanism, nudged, &[])?;
+        let nudged = assemble(self.mechanism, &nudged, &[])?;
         let changed = self.by(way, &nudged, effort)?;
         let known = &known[known.len() - changed.len()..];
         Ok(largest(&changed, known, scale) / NUDGE)

@@ -76,6 +76,17 @@ fn a_mechanism_is_listed_with_its_starts() {
         "no model is called `crat`; did you mean `cart`?",
     );
     fails("run train", 2, "`cart list` shows those there are");
+    // What has another name here.
+    fails(
+        "equilibrium cart",
+        2,
+        "tip: `modes` finds where a model rests",
+    );
+    fails(
+        "branches cart",
+        2,
+        "tip: `diagnose` has degrees of freedom, ",
+    );
 }
 
 #[test]
@@ -320,6 +331,30 @@ fn ways_as_near_are_noted() {
     );
     assert_eq!(run.status.code(), Some(0));
     assert!(output(&format!("diagnose cart {guess} y=0.02")).contains(told));
+    let out = tempfile::tempdir().expect("directory");
+    let path = out.path().join("a.csv").display().to_string();
+    let noted = |line: &str, note: &str| {
+        let told = String::from_utf8_lossy(&cart(line).stderr).into_owned();
+        assert_eq!(told, format!("note: {note}"), "{line}");
+    };
+    for command in ["animate", "sweep"] {
+        noted(
+            &format!("{command} cart {guess} y=0.02 --out {path}.{command}"),
+            told,
+        );
+    }
+    noted(
+        &format!("explain cart {} y=0.02", guess.replace("--until 0", "")),
+        told,
+    );
+    // What `list` has in degrees is not meant to be 45 rad.
+    let told = "`angle` is 45 rad, as bare numbers are; for degrees write `angle=45deg`\n";
+    noted("run cart --until 0 --set angle=45", told);
+    noted(
+        &format!("sweep cart --until 0 --set angle=45,50 --out {path}s"),
+        told,
+    );
+    output("run cart --until 0 --set angle=PI/4");
     // `output` holds standard error to be empty.
     output(&format!("run cart {guess} y=0.2"));
     let apart = output(&format!("diagnose cart {guess} y=0.2"));

@@ -53,6 +53,50 @@ fn its_motion_is_shown() {
     fails("animate cart --pictures 1", 2, "from 2 to 100000");
 }
 
+/// The view goes along with what goes much farther than it is large: here all that is drawn, moved by 10 m from picture to picture.
+#[test]
+fn a_long_way_is_followed() {
+    let out = tempfile::tempdir().expect("directory");
+    let page = out.path().join("far.html");
+    output(&format!(
+        "animate cart --until 2 --pictures 41 --out {}",
+        page.display()
+    ));
+    let text = std::fs::read_to_string(&page).expect("the page");
+    let mut far = data(&text);
+    for (k, picture) in far["runs"][0]["pictures"]
+        .as_array_mut()
+        .expect("pictures")
+        .iter_mut()
+        .enumerate()
+    {
+        // The abscissas of spring, rod, bob, which has a radius, and trace.
+        for place in [0, 2, 4, 6, 8, 11] {
+            let x = picture[place].as_f64().expect("a number");
+            picture[place] = (x + 10.0 * k as f64).into();
+        }
+    }
+    let (before, rest) = text.split_once("id=\"data\">").expect("data");
+    let (_, after) = rest.split_once("</script>").expect("its end");
+    std::fs::write(&page, format!("{before}id=\"data\">{far}</script>{after}")).expect("written");
+    if let Some(shown) = browsed(&page) {
+        let (_, view) = shown.split_once("viewBox=\"").expect("a view");
+        let view = view.split('"').next().unwrap_or_default().split(' ');
+        let view: Vec<f64> = view.map(|x| x.parse().expect("a number")).collect();
+        let bob = far["runs"][0]["pictures"][40][8]
+            .as_f64()
+            .expect("a number");
+        assert!(
+            (view[0]..view[0] + view[2]).contains(&bob) && view[2] < 10.0,
+            "{view:?}"
+        );
+        assert!(
+            shown.contains("The view goes along; its lines are"),
+            "{shown}"
+        );
+    }
+}
+
 /// What a page is given.
 fn data(page: &str) -> Value {
     let (_, data) = page.split_once("id=\"data\">").expect("data");
@@ -129,7 +173,7 @@ fn curves_of_a_run_are_drawn() {
     assert_eq!(times, Some(1001));
     // With a heavy cart that stands the bob swings on a circle about it: the path is as wide as 2 l sin(angle).
     output(&format!(
-        "run cart --set big=1e12 --set k=0 --set angle=0.9 --until 3 --plot {} x,y",
+        "run cart --set big=1e12 --set k=0 --set angle=0.9rad --until 3 --plot {} x,y",
         path.display()
     ));
     let text = std::fs::read_to_string(&path).expect("a picture");

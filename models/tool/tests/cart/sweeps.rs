@@ -32,7 +32,7 @@ fn values_are_swept() {
         );
         // Against the samples of a run.
         let csv = output(&format!(
-            "run cart --until 1 --every 1ms --csv - --set k={stiffness} --set angle={angle}"
+            "run cart --until 1 --every 1ms --csv - --set k={stiffness} --set angle={angle}rad"
         ));
         let column = csv.lines().next().expect("names").split(',');
         let column = column.into_iter().position(|name| name == "swing");

@@ -95,7 +95,7 @@ fn start_off(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
 
 fn assembly_off(distance: f64, _: &mut Effort) -> Result<f64, Error> {
     let guess = moved(distance)?;
-    let found = assemble(UChain::default(), guess.clone(), &[])?;
+    let found = assemble(UChain::default(), &guess, &[])?;
     settled(&guess, &found, distance)
 }
 

@@ -6,7 +6,7 @@
 
 use super::array::{Value, describe, sum_of_products};
 use super::{Env, Lowering, Place};
-use crate::diag::{Loc, nearest, suggest};
+use crate::diag::{Loc, suggest};
 use crate::expr::diff::Derivative;
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id, Symbol};
@@ -451,13 +451,18 @@ impl<'m> Lowering<'m> {
         declared || text == "ground" || env.args.iter().any(|(n, _)| *n == text)
     }
 
-    /// Whether what has fields is called nearly so.
-    fn is_like_owner(&self, name: &Ident) -> bool {
+    /// The message about a `name` before a dot that is none of a body, a joint of the tree or a part; nothing where there are none.
+    pub(super) fn no_owner(&self, name: &str) -> Option<String> {
         let owners = self.model.names.iter().filter_map(|(owner, what)| {
             let fields = matches!(what, Name::Body(_) | Name::Joint | Name::Part);
             fields.then_some(owner.as_str())
         });
-        nearest(&name.to_string(), owners).is_some()
+        let mut owners: Vec<&str> = owners.collect();
+        owners.sort_unstable();
+        let shown = owners.get(..owners.len().min(8))?.join("`, `");
+        let remedy = format!("what has fields here is `{shown}`");
+        let end = suggest(name, owners.iter().copied(), &remedy);
+        (!owners.is_empty()).then(|| format!("unknown name `{name}`{end}"))
     }
 
     /// `body.angle`.
@@ -466,8 +471,20 @@ impl<'m> Lowering<'m> {
             return value;
         }
         let value = match &base.kind {
-            // Nothing declared here, perhaps a struct of Rust.
-            ExprKind::Name(base) if !self.is_known(base, env) && !self.is_like_owner(base) => None,
+            ExprKind::Name(owner) if !self.is_known(owner, env) => {
+                let text = owner.to_string();
+                match self.no_owner(&text) {
+                    _ if self.results.contains_key(&text) => Some(self.argument(base, env)),
+                    // Once for all its uses.
+                    Some(_) if self.unknown.contains(&text) => return Value::Error,
+                    // Perhaps a struct of Rust: `self.m`.
+                    Some(message) if !self.model.names.contains_key(&name.to_string()) => {
+                        self.unknown.insert(text);
+                        return self.error(owner.span(), message);
+                    }
+                    _ => None,
+                }
+            }
             _ => Some(self.argument(base, env)),
         };
         // The ground is a plane, or a space, where a point of it is given.

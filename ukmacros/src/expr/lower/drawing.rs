@@ -5,9 +5,11 @@ use super::bodies::{Frame, Point};
 use super::system::{Drawing, ShapeKind, ShapeValue};
 use super::{Env, Lowering, Place};
 use crate::diag::suggest;
+use crate::expr::eval;
 use crate::expr::graph::Id;
 use crate::model::Scope;
 use crate::parse::{Declaration, Shape};
+use std::cmp::Ordering;
 use std::rc::Rc;
 
 /// Shapes by name: what they are, and how many points they take at least and at most.
@@ -23,7 +25,7 @@ const SHAPES: [(&str, ShapeKind, usize, usize); 6] = [
 /// How shapes are written.
 const USAGE: &str = "`line(p, q)`, `polyline(p, q, …)`, `circle(centre, radius)`, `spring(p, q)`, `trace(p)`, `text(p, \"…\")`";
 
-/// The points that a joint, or what acts with a force, is between.
+/// The points that a joint, or what acts with a force, is between; or one that is reported.
 pub(super) struct Between {
     name: &'static str,
     points: Vec<Rc<Point>>,
@@ -113,7 +115,8 @@ impl<'m> Lowering<'m> {
         });
     }
 
-    /// Bodies as lines through the points where they are joined, springs, rods, and the places on the ground that something hangs on.
+    /// Bodies as outlines of their centre and of the points where they are joined, pushed or reported; springs, rods and forces between
+    /// points; and the places on the ground that something hangs on.
     fn skeleton(&mut self) -> Drawing {
         let between = std::mem::take(&mut self.between);
         let mut out = Drawing::default();
@@ -127,7 +130,7 @@ impl<'m> Lowering<'m> {
         };
         let at = |point: &Rc<Point>| point.place.entries().to_vec();
         let mut grounded: Vec<Vec<Id>> = Vec::new();
-        for joint in &between {
+        for joint in between.iter().filter(|joint| joint.name != "output") {
             let of_ground = joint.points.iter().filter(|p| p.body.dimension().is_none());
             for place in of_ground.map(at) {
                 if !grounded.contains(&place) {
@@ -138,7 +141,7 @@ impl<'m> Lowering<'m> {
             if let [p, q] = &joint.points[..] {
                 match joint.name {
                     "spring" | "damper" => add(ShapeKind::Spring, &[at(p), at(q)]),
-                    "rod" => add(ShapeKind::Line, &[at(p), at(q)]),
+                    "rod" | "force" => add(ShapeKind::Line, &[at(p), at(q)]),
                     _ => {}
                 }
             }
@@ -158,17 +161,103 @@ impl<'m> Lowering<'m> {
                     points.push(place);
                 }
             }
-            match &points[..] {
-                [] => add(ShapeKind::Mark, &[centre]),
-                [only] if *only == centre => add(ShapeKind::Mark, &[centre]),
-                [only] => add(ShapeKind::Line, &[centre, only.clone()]),
-                [_, _] => add(ShapeKind::Line, &points),
-                [first, ..] => {
-                    let closed = [&points[..], std::slice::from_ref(first)].concat();
-                    add(ShapeKind::Line, &closed);
-                }
+            if !points.contains(&centre) {
+                points.push(centre);
+            }
+            match &self.outline(points)[..] {
+                [only] => add(ShapeKind::Mark, std::slice::from_ref(only)),
+                [p, q] => add(ShapeKind::Line, &[p.clone(), q.clone()]),
+                all => add(ShapeKind::Line, &[all, &all[..1]].concat()),
             }
         }
         out
     }
+
+    /// The corners of the convex hull of points of one body, in their order around it; in space all points, if they are on no line.
+    fn outline(&self, points: Vec<Vec<Id>>) -> Vec<Vec<Id>> {
+        // The same wherever the body is.
+        let mut q = vec![0.0; self.model.coord_elements.len()];
+        self.model.quaternions().for_each(|first| q[first] = 1.0);
+        let here = eval::Point {
+            t: 0.0,
+            q: &q,
+            v: &vec![0.0; q.len()],
+            ..eval::Point::of_parameters(&self.defaults)
+        };
+        let places = points.iter().map(|p| eval::eval(&self.graph, p, &here));
+        let places: Vec<Vec<f64>> = places.collect();
+        let corners = match places[0].len() {
+            2 => hull(&places),
+            _ => ends(&places).unwrap_or_else(|| (0..points.len()).collect()),
+        };
+        corners.into_iter().map(|k| points[k].clone()).collect()
+    }
+}
+
+/// Points nearer to a line than this part of its length are on it.
+const STRAIGHT: f64 = 1e-9;
+
+/// From `p` to `q`.
+fn way(p: &[f64], q: &[f64]) -> Vec<f64> {
+    q.iter().zip(p).map(|(q, p)| q - p).collect()
+}
+
+/// The corners of the convex hull of points of the plane, by Andrew's monotone chain.
+fn hull(points: &[Vec<f64>]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|a, b| {
+        let pairs = points[*a].iter().zip(&points[*b]);
+        pairs.fold(Ordering::Equal, |so_far, (x, y)| {
+            so_far.then(x.total_cmp(y))
+        })
+    });
+    let half = |order: &mut dyn Iterator<Item = usize>| {
+        let mut chain: Vec<usize> = Vec::new();
+        for k in order {
+            if chain.last().is_some_and(|b| points[*b] == points[k]) {
+                continue;
+            }
+            while let [.., a, b] = chain[..] {
+                let (u, v) = (way(&points[a], &points[b]), way(&points[a], &points[k]));
+                let (turn, size) = (u[0] * v[1] - u[1] * v[0], v[0] * v[0] + v[1] * v[1]);
+                if turn > STRAIGHT * size {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(k);
+        }
+        chain
+    };
+    let (mut below, above) = (
+        half(&mut order.iter().copied()),
+        half(&mut order.iter().rev().copied()),
+    );
+    // Either begins where the other ends.
+    below.pop();
+    let inner = above.len().saturating_sub(1);
+    below.extend(&above[..inner.max(usize::from(below.is_empty()))]);
+    below
+}
+
+/// The ends of points that are on one line, if they are.
+fn ends(points: &[Vec<f64>]) -> Option<Vec<usize>> {
+    let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+    let farthest = |from: usize| {
+        let size = |k: &usize| square(&way(&points[from], &points[*k]));
+        (0..points.len()).max_by(|a, b| size(a).total_cmp(&size(b)))
+    };
+    let first = farthest(0)?;
+    let last = farthest(first)?;
+    let line = way(&points[first], &points[last]);
+    let beside = |p: &Vec<f64>| {
+        let v = way(&points[first], p);
+        let along: f64 = v.iter().zip(&line).map(|(a, b)| a * b).sum();
+        square(&v) * square(&line) - along * along
+    };
+    let size = square(&line);
+    let straight = points.iter().all(|p| beside(p) <= STRAIGHT * size * size);
+    let mut ends = vec![first.min(last), first.max(last)];
+    ends.dedup();
+    straight.then_some(ends)
 }

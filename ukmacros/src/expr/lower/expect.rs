@@ -141,6 +141,17 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// Reports numbers of `value`, which `what` names, that are not of this `unit`'s dimension.
+    pub(super) fn expect_unit(&mut self, value: &Value, unit: &str, what: &str, loc: Loc) {
+        let dimension = Unit::parse(unit).map(|unit| unit.dimension());
+        let expected = dimension.map_or(Unknown, Measured::of);
+        for id in value.entries() {
+            if let Err((_, found)) = expected.with(self.dimension(*id)) {
+                self.complain(*id, loc, format!("{what} is in {unit}, found {found}"));
+            }
+        }
+    }
+
     /// Reports what is given for a parameter of a part, where its `default` is of another dimension.
     pub(super) fn fits(&mut self, value: &Value, default: &Value, loc: Loc) {
         let defaults = default.entries().iter().cycle();

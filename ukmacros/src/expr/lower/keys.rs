@@ -82,11 +82,12 @@ impl<'m> Lowering<'m> {
                 1..=8 => format!("coordinates are `{}`", coords.join("`, `")),
                 _ => "declare it under `coords`".to_owned(),
             };
-            let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
-            self.diag.error(
-                key.name.span(),
-                format!("`{name}` is not a coordinate{end}"),
-            );
+            let owner = (!key.fields.is_empty()).then(|| self.no_owner(&name));
+            let message = owner.flatten().unwrap_or_else(|| {
+                let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
+                format!("`{name}` is not a coordinate{end}")
+            });
+            self.diag.error(key.name.span(), message);
             return None;
         };
         if let Some((field, _)) = key.fields.first() {
@@ -198,7 +199,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// The coordinates of the joint that the bodies called `name` hang on, as written, if all hang on joints of one name.
-    fn carrying(&self, name: &str) -> String {
+    pub(super) fn carrying(&self, name: &str) -> String {
         let model = self.model;
         let Some(Name::Body(family)) = model.names.get(name) else {
             return String::new();

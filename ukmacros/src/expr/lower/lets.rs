@@ -155,7 +155,7 @@ impl<'m> Lowering<'m> {
             ),
             LetValue::Value(e) => {
                 let value = match &binding.given {
-                    Some(given) => self.given(e, given, scope),
+                    Some(given) => self.given(&name, e, given, scope),
                     None => self.argument(e, &Env::new(scope, Place::Let)),
                 };
                 let shown = indexed(self.model.shown(&name), &indices);
@@ -174,7 +174,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// What is given to a part for a parameter of these sizes: numbers for all of it, or one.
-    fn given(&mut self, e: &Expr, given: &Given, scope: &Scope<'m>) -> Value {
+    fn given(&mut self, name: &str, e: &Expr, given: &Given, scope: &Scope<'m>) -> Value {
         let value = self.value(e, &Env::new(scope, Place::Given));
         if self.dimensions.is_some() {
             let default = self.value(&given.default, &Env::new(scope, Place::Given));
@@ -190,6 +190,14 @@ impl<'m> Lowering<'m> {
         match value {
             Value::Scalar(id) if !shape.is_empty() => {
                 Value::new(&shape, vec![id; shape.iter().product()])
+            }
+            Value::Array(_) if shape.is_empty() => {
+                let name = self.model.shown(name).rsplit('.').next().unwrap_or(name);
+                let found = describe(value.shape());
+                let message = format!(
+                    "`{name}` is a number, found {found}; a value for each part is given in a loop: `for i in 0..2 {{ leg[i]: Leg {{ l: v[i] }} }}`"
+                );
+                self.error(e.loc, message)
             }
             value => match self.of_shape(&value, &shape, e.loc) {
                 Some(entries) => Value::new(&shape, entries),

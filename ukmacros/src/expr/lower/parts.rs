@@ -5,7 +5,6 @@
 use super::array::{Value, describe};
 use super::bodies::Frame;
 use super::reactions::{Load, Pushed, Turned};
-use super::units::Measured;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
@@ -15,7 +14,6 @@ use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
-use ukunits::Dimension;
 
 /// What an argument is.
 #[derive(Clone, Copy, PartialEq)]
@@ -55,21 +53,35 @@ enum Meaning {
     Push(&'static str, &'static str),
 }
 
+/// An argument of a part.
+struct Argument {
+    name: &'static str,
+    takes: Takes,
+    /// What it is measured in, where that is not told by what it takes.
+    unit: &'static str,
+    /// What stands for it where it is left out, if it may be.
+    default: &'static str,
+}
+
 /// A joint, or what acts with a force.
 pub(super) struct Part {
     pub(super) name: &'static str,
     home: Home,
-    /// Names and kinds of its arguments, those that may be left out with what stands for them.
-    args: &'static [(&'static str, Takes, &'static str)],
+    args: &'static [Argument],
     meaning: Meaning,
 }
 
 macro_rules! parts {
-    ($($name:literal $home:ident ($($arg:ident: $takes:ident $(= $default:literal)?),*) $meaning:ident($($text:tt)*);)*) => {
+    ($($name:literal $home:ident ($($arg:ident: $takes:ident $([$unit:literal])? $(= $default:literal)?),*) $meaning:ident($($text:tt)*);)*) => {
         pub(super) static PARTS: &[Part] = &[$(Part {
             name: $name,
             home: Home::$home,
-            args: &[$((stringify!($arg), Takes::$takes, concat!($($default)?))),*],
+            args: &[$(Argument {
+                name: stringify!($arg),
+                takes: Takes::$takes,
+                unit: concat!($($unit)?),
+                default: concat!($($default)?),
+            }),*],
             meaning: Meaning::$meaning($($text)*),
         }),*];
     };
@@ -77,19 +89,19 @@ macro_rules! parts {
 
 parts! {
     "pin" Plane (p: Point, q: Point) Rows(&["q - p"], "x y");
-    "weld" Plane (p: Point, q: Point, angle: Number = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle");
-    "slider" Plane (p: Point, q: Point, d: Direction, angle: Number = "0")
+    "weld" Plane (p: Point, q: Point, angle: Number["rad"] = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle");
+    "slider" Plane (p: Point, q: Point, d: Direction, angle: Number["rad"] = "0")
         Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"], "normal angle");
     "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"], "");
     "gear" Plane (a: Body, b: Body, r: Number, s: Number) Rows(&["r * a.angle + s * b.angle"], "");
-    "rack" Plane (p: Point, q: Point, d: Direction, r: Number)
+    "rack" Plane (p: Point, q: Point, d: Direction, r: Number["m"])
         Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"], "");
-    "wheel" Plane (p: Point, q: Point, d: Direction, r: Number) Rows(&[
+    "wheel" Plane (p: Point, q: Point, d: Direction, r: Number["m"]) Rows(&[
         "inner(p.along(normal(d)), q - p) - r",
         "inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)",
     ], "normal rolling");
     "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"], "");
-    "rod" Both (p: Point, q: Point, l: Length) Rows(&["sq(q - p) - sq(l)"], "");
+    "rod" Both (p: Point, q: Point, l: Length["m"]) Rows(&["sq(q - p) - sq(l)"], "");
     "ball" Space (p: Point, q: Point) Rows(&["q - p"], "x y z");
     "hinge" Space (p: Point, q: Point, u: Direction, w: Direction = "u")
         Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"], "x y z tilt0 tilt1");
@@ -114,24 +126,24 @@ parts! {
         "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
     ], "x y z xy yz zx");
-    "drive" Space (a: Body, b: Body, u: Direction, angle: Number)
+    "drive" Space (a: Body, b: Body, u: Direction, angle: Number["rad"])
         Rows(&["inner(a.along(cos(angle) * normals(u)[1] - sin(angle) * normals(u)[0]), b.along(normals(u)[0]))"], "");
-    "screw" Space (p: Point, q: Point, u: Direction, lead: Number) Rows(&[
+    "screw" Space (p: Point, q: Point, u: Direction, lead: Number["m"]) Rows(&[
         "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
     ], "");
-    "disc" Space (q: Point, u: Direction, r: Number) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"], "");
-    "rolls" Space (q: Point, u: Direction, r: Number) Rows(&[
+    "disc" Space (q: Point, u: Direction, r: Number["m"]) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"], "");
+    "rolls" Space (q: Point, u: Direction, r: Number["m"]) Rows(&[
         "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
         "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
     ], "x y");
-    "spring" Both (p: Point, q: Point, k: Number, l: Number) Energy("0.5 * k * sq(norm(q - p) - l)");
-    "turning_spring" Plane (a: Body, b: Body, k: Number, angle: Number) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
-    "damper" Both (p: Point, q: Point, c: Number) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
-    "turning_damper" Both (a: Body, b: Body, c: Number) Push("b.omega - a.omega", "-c * (b.omega - a.omega)");
-    "force" Both (p: Point, f: Force) Push("dot(p)", "f");
-    "force" Both (p: Point, q: Point, f: Number) Push("dot(norm(q - p))", "f");
-    "torque" Both (b: Body, m: Moment) Push("b.omega", "m");
-    "torque" Both (a: Body, b: Body, m: Moment) Push("b.omega - a.omega", "m");
+    "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
+    "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
+    "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
+    "turning_damper" Both (a: Body, b: Body, c: Number["N m s"]) Push("b.omega - a.omega", "-c * (b.omega - a.omega)");
+    "force" Both (p: Point, f: Force["N"]) Push("dot(p)", "f");
+    "force" Both (p: Point, q: Point, f: Number["N"]) Push("dot(norm(q - p))", "f");
+    "torque" Both (b: Body, m: Moment["N m"]) Push("b.omega", "m");
+    "torque" Both (a: Body, b: Body, m: Moment["N m"]) Push("b.omega - a.omega", "m");
 }
 
 /// What the entries of `forces` add up to.
@@ -145,10 +157,7 @@ pub(super) struct Acting {
 impl Part {
     /// How many arguments it takes at least, and at most.
     fn arity(&self) -> (usize, usize) {
-        let least = self
-            .args
-            .iter()
-            .filter(|(_, _, default)| default.is_empty());
+        let least = self.args.iter().filter(|arg| arg.default.is_empty());
         (least.count(), self.args.len())
     }
 
@@ -159,13 +168,10 @@ impl Part {
 
     /// As it is written.
     fn usage(&self) -> String {
-        let args = self
-            .args
-            .iter()
-            .map(|(name, _, default)| match default.is_empty() {
-                true => (*name).to_owned(),
-                false => format!("[{name}]"),
-            });
+        let args = self.args.iter().map(|arg| match arg.default.is_empty() {
+            true => arg.name.to_owned(),
+            false => format!("[{}]", arg.name),
+        });
         format!("`{}({})`", self.name, args.collect::<Vec<_>>().join(", "))
     }
 }
@@ -294,8 +300,6 @@ impl<'m> Lowering<'m> {
                     self.error(e.loc, format!("a `{name}` depends on coordinates and time only; write what depends on velocities as a `force` or `torque`"));
                     return;
                 }
-                let what = format!("the energy of `{name}`");
-                self.expect_all(&value, Dimension::ENERGY, &what, e.loc);
                 out.potential
                     .extend(value.entries().iter().map(|id| (1.0, *id)));
             }
@@ -314,9 +318,6 @@ impl<'m> Lowering<'m> {
                     return;
                 }
                 for (v, f) in velocity.entries().iter().zip(force.entries()) {
-                    let expected = Measured::of(Dimension::POWER).per(self.dimension(*v));
-                    let last = args.last().map_or(e.loc, |a| a.loc);
-                    self.expect(*f, expected, &format!("what acts by `{name}`"), last);
                     self.push(*v, *f, out);
                 }
             }
@@ -388,7 +389,10 @@ impl<'m> Lowering<'m> {
             Value::Point(point) => Some(point.place.entries().len()),
             _ => None,
         });
+        // Without either it is where the part lives.
+        let spatial = named().all(|part| part.home == Home::Space);
         let dimension = frames().next().or(of_ground);
+        let dimension = dimension.or(spatial.then_some(3));
         let home = match dimension {
             Some(3) => Home::Space,
             _ => Home::Plane,
@@ -429,18 +433,18 @@ impl<'m> Lowering<'m> {
             place: Place::Let,
         };
         let mut sound = true;
-        for (k, (arg, takes, default)) in part.args.iter().enumerate() {
+        for (k, arg) in part.args.iter().enumerate() {
             let value = match values.get(k) {
                 Some(value) => {
-                    sound &= self.takes(part, arg, *takes, value, dimension, &args[k]);
-                    match takes {
+                    sound &= self.takes(part, arg, value, dimension, &args[k]);
+                    match arg.takes {
                         Takes::Point | Takes::Body => value.clone(),
                         _ => self.numbers(value.clone(), args[k].loc),
                     }
                 }
-                None => self.written(default, name.span().into(), &inner),
+                None => self.written(arg.default, name.span().into(), &inner),
             };
-            inner.args.push(((*arg).to_owned(), value));
+            inner.args.push((arg.name.to_owned(), value));
         }
         sound.then_some((part, inner))
     }
@@ -449,13 +453,18 @@ impl<'m> Lowering<'m> {
     fn takes(
         &mut self,
         part: &Part,
-        arg: &str,
-        takes: Takes,
+        arg: &Argument,
         value: &Value,
         dimension: usize,
         e: &Expr,
     ) -> bool {
         let flat = dimension == 2;
+        let Argument {
+            name: arg,
+            takes,
+            unit,
+            ..
+        } = *arg;
         let (fits, expected) = match takes {
             Takes::Point => (
                 matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
@@ -511,6 +520,10 @@ impl<'m> Lowering<'m> {
             );
             self.error(e.loc, message);
             return false;
+        }
+        if self.dimensions.is_some() && !unit.is_empty() {
+            let what = format!("`{arg}` of {}", part.usage());
+            self.expect_unit(value, unit, &what, e.loc);
         }
         true
     }

@@ -113,11 +113,8 @@ impl<'m> Lowering<'m> {
         {
             return self.vector_guess(guess, &key, (vector, spatial), env, out);
         }
-        let found: Vec<_> = guess
-            .keys
-            .iter()
-            .map(|key| self.coordinates(key, &env.scope))
-            .collect();
+        let found = guess.keys.iter().map(|key| self.told_of(key, &env.scope));
+        let found: Vec<_> = found.collect();
         let value = self.value(&guess.value, env);
         let Some(found) = found.into_iter().collect::<Option<Vec<_>>>() else {
             return;
@@ -159,6 +156,22 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// The coordinates that a start speaks of.
+    fn told_of(&mut self, key: &Key, scope: &Scope<'m>) -> Option<(&'m [usize], &'m [usize])> {
+        let whole = self.within(key, scope)?.into_owned();
+        if let ([(field, _)], Some(family)) = (&whole.fields[..], self.body_of(&whole)) {
+            let (name, text) = (whole.name.to_string(), field.to_string());
+            let own = self.model.fields.get(&name);
+            let own = own.is_some_and(|fields| fields.contains_key(text.as_str()));
+            let names = self.model.body_kinds[family].coordinates();
+            if !own && names.contains(&text.as_str()) {
+                self.hangs(&name, field);
+                return None;
+            }
+        }
+        self.coordinates(&whole, scope)
+    }
+
     /// Adds what is said, unless it was said before, which is reported.
     fn tell(&mut self, said: GuessValue, loc: Loc, out: &mut Vec<GuessValue>) -> bool {
         let rate = said.kind != GuessKind::Position;
@@ -179,7 +192,7 @@ impl<'m> Lowering<'m> {
         false
     }
 
-    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, which it is, and whether the body is spatial.
+    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body, which it is, and whether the body is spatial.
     fn vector_of(
         &mut self,
         key: &Key,
@@ -193,20 +206,48 @@ impl<'m> Lowering<'m> {
             "spin" if !rate => OfBody::Spin,
             _ => return None,
         };
-        let mut key = self.within(key, scope)?.into_owned();
-        let body = self.model.names.get(&key.name.to_string());
-        let Some(Name::Body(family)) = body else {
+        let key = self.within(key, scope)?.into_owned();
+        let spatial = self.model.body_kinds[self.body_of(&key)?].spatial;
+        let [(_, behind)] = &key.fields[..] else {
             return None;
         };
-        let spatial = self.model.body_kinds[*family].spatial;
-        let [(field, behind)] = &mut key.fields[..] else {
-            return None;
-        };
-        if !behind.is_empty() || !spatial && vector == OfBody::Spin {
-            return None;
+        let known = behind.is_empty() && (spatial || vector != OfBody::Spin);
+        known.then_some((key, vector, spatial))
+    }
+
+    /// The bodies whose name `key` begins with.
+    fn body_of(&self, key: &Key) -> Option<usize> {
+        match self.model.names.get(&key.name.to_string()) {
+            Some(Name::Body(family)) => Some(*family),
+            _ => None,
         }
-        *field = Ident::new("x", field.span());
-        Some((key, vector, spatial))
+    }
+
+    /// Where in q what a vector of the body at `position` says goes: to its own coordinates, or of an angular velocity to those of the joint
+    /// of the tree between it and the ground that turn it freely.
+    fn place_of(&self, position: usize, vector: OfBody, spatial: bool) -> Option<usize> {
+        let offset = match (vector, spatial) {
+            (OfBody::Centre, _) => 0,
+            (_, false) => 2,
+            (_, true) => 3,
+        };
+        if let Some(first) = self.model.own[position] {
+            return Some(first + offset);
+        }
+        let joint = &self.model.joints[self.model.hung[position]?];
+        let turns = if spatial { "e0" } else { "angle" };
+        let place = joint.kind.coordinates.iter().position(|c| *c == turns)?;
+        let free = vector != OfBody::Centre && joint.parent.is_none();
+        free.then_some(joint.first + place)
+    }
+
+    /// Reports that a start speaks of a body that hangs on a joint of the tree, not of the coordinates of the joint.
+    fn hangs(&mut self, name: &str, field: &Ident) {
+        let (coordinates, name) = (self.carrying(name), self.model.shown(name));
+        let message = format!(
+            "`{name}` hangs on a joint of the tree: a start gives the coordinates of the joint{coordinates} and their rates by `dot`, no `{field}` of the body"
+        );
+        self.diag.error(field.span(), message);
     }
 
     /// The place of a body's centre of mass, or its velocity; or its angular velocity: the rate of the angle of a planar one, those of the
@@ -220,8 +261,17 @@ impl<'m> Lowering<'m> {
         out: &mut Vec<GuessValue>,
     ) {
         let value = self.value(&guess.value, env);
-        let Some((places, shape)) = self.coordinates(key, &env.scope) else {
+        let Some(family) = self.body_of(key) else {
             return;
+        };
+        let bodies = &self.model.bodies[family];
+        let Some((positions, shape)) = self.member(&key.name, &key.indices, bodies, &env.scope)
+        else {
+            return;
+        };
+        let places = positions.iter().map(|p| self.place_of(*p, vector, spatial));
+        let Some(places) = places.collect::<Option<Vec<usize>>>() else {
+            return self.hangs(&key.name.to_string(), &key.fields[0].0);
         };
         let size = match (spatial, vector) {
             (true, _) => 3,
@@ -236,12 +286,11 @@ impl<'m> Lowering<'m> {
         let loc = guess.keys[0].loc;
         let zero = self.graph.zero();
         for (first, values) in places.iter().zip(values.chunks(size)) {
-            let (offset, kind) = match vector {
-                OfBody::Centre if guess.rate => (0, GuessKind::Velocity),
-                OfBody::Centre => (0, GuessKind::Position),
-                _ if size == 1 => (2, GuessKind::Velocity),
-                OfBody::Omega => (3, GuessKind::Omega),
-                OfBody::Spin => (3, GuessKind::Spin),
+            let kind = match vector {
+                OfBody::Centre if !guess.rate => GuessKind::Position,
+                OfBody::Omega if spatial => GuessKind::Omega,
+                OfBody::Spin => GuessKind::Spin,
+                _ => GuessKind::Velocity,
             };
             let turns = matches!(kind, GuessKind::Omega | GuessKind::Spin);
             let (expected, what) = match vector {
@@ -260,7 +309,7 @@ impl<'m> Lowering<'m> {
             let values = turns.then_some(&zero).into_iter().chain(values);
             for (k, value) in values.enumerate() {
                 let said = GuessValue {
-                    coordinate: first + offset + k,
+                    coordinate: first + k,
                     kind,
                     held: guess.held,
                     value: *value,

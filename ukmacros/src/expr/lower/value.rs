@@ -48,6 +48,9 @@ impl<'m> Lowering<'m> {
     /// A number or an array of numbers.
     pub(super) fn value(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         let value = self.argument(e, env);
+        if matches!(env.place, Place::Output) && matches!(value, Value::Point(_)) {
+            self.note("output", std::slice::from_ref(&value));
+        }
         self.numbers(value, e.loc)
     }
 
