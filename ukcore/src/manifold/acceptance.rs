@@ -22,7 +22,7 @@ pub(super) const NEIGHBOUR: f64 = 1e-4;
 pub(crate) struct Size<L> {
     /// max|x_j|, of coordinates of different units by these.
     pub(super) largest: L,
-    /// max|x_j|/ease_j, where coordinates move as readily as `ease` says.
+    /// max|x_j|/inertial_j, where inertias count.
     even: L,
 }
 
@@ -40,6 +40,8 @@ impl Size<f64> {
 pub(crate) struct Acceptance<L> {
     /// How readily coordinates move in a search; empty where inertia alone says it.
     pub(super) ease: Vec<f64>,
+    /// The same by inertias: coordinates of one unit need not be of one size, which these may tell. Empty where `ease` is.
+    pub(super) inertial: Vec<f64>,
     /// What makes coordinates of different units comparable; empty where all are of one unit.
     pub(super) units: Vec<f64>,
     /// Coordinates that do not move at all.
@@ -60,6 +62,7 @@ impl<L: Lanes> Acceptance<L> {
         let zero = L::from_f64(0.0);
         Acceptance {
             ease: Vec::new(),
+            inertial: Vec::new(),
             units: Vec::new(),
             held: Vec::new(),
             size: Size {
@@ -90,21 +93,20 @@ impl<L: Lanes> Acceptance<L> {
     #[inline]
     pub(super) fn measured(&self, x: &[L]) -> Size<L> {
         let largest = self.largest(x);
-        let even = match self.ease.is_empty() {
+        let even = match self.inertial.is_empty() {
             true => largest,
-            false => largest_by(x, &self.ease),
+            false => largest_by(x, &self.inertial),
         };
         Size { largest, even }
     }
 
-    /// What coordinate j is measured by beside coordinates of this size: coordinates of one unit need not be of one size, which the inertias
-    /// of a search may tell.
+    /// What coordinate j is measured by beside coordinates of this size.
     pub(super) fn least(&self, size: Size<L>, j: usize) -> L {
         let by = |units: &[f64], size: L| L::from_f64(*units.get(j).unwrap_or(&1.0)) * size;
         let largest = by(&self.units, size.largest);
-        match self.ease.is_empty() {
+        match self.inertial.is_empty() {
             true => largest,
-            false => largest.min(by(&self.ease, size.even)),
+            false => largest.min(by(&self.inertial, size.even)),
         }
     }
 

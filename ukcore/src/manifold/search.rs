@@ -127,6 +127,7 @@ impl Manifold {
         let mut manifold = Manifold::new(mech);
         manifold.measure(mech, t, q, v);
         let acceptance = &mut manifold.newton.acceptance;
+        acceptance.inertial.clone_from(&ease);
         (acceptance.ease, acceptance.held) = (ease, held);
         manifold
     }
