@@ -3,6 +3,7 @@
 mod assembly;
 mod bodies;
 mod branches;
+mod closing;
 mod crossings;
 mod diagnosis;
 mod directions;

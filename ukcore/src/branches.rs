@@ -13,7 +13,6 @@ use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
 use crate::random::Random;
-use crate::scan::{largest, largest_difference};
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
 
@@ -35,7 +34,7 @@ const BEGINNINGS: usize = 24;
 const AS_NEAR: f64 = 1.5;
 /// What the guess does not tell of counts so little.
 const UNTOLD: f64 = 1e-6;
-/// Distances below this part of the coordinates are none.
+/// Distances below this part of what coordinates extend over are none.
 const NONE: f64 = 1e-7;
 /// Steps towards the guess within a branch.
 const STEPS: usize = 60;
@@ -125,6 +124,7 @@ fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assem
         held,
         weights: DVector::from_fn(units.len(), |j, _| weight(j) / units[j]),
         units,
+        extents: Vec::new(),
         found: Vec::new(),
     };
     let states = ways.near(look).into_iter();
@@ -152,6 +152,8 @@ struct Ways<'a> {
     /// What distances are measured by.
     units: DVector<f64>,
     weights: DVector<f64>,
+    /// How large coordinates are.
+    extents: Vec<f64>,
     found: Vec<Way>,
 }
 
@@ -159,10 +161,12 @@ impl Ways<'_> {
     /// The nearest, then those that are as near; none where coordinates stay free and they are not to be looked for.
     fn near(&mut self, look: Look) -> Vec<Vec<f64>> {
         let (mech, guess) = (self.mech, self.guess);
-        let none = NONE * largest(&guess.q).max(1.0) * self.weights.amax();
         let mut search = Search::new(mech, guess, &self.held.positions);
         search.untold.clone_from(&self.held.untold);
         let at = At::new(mech, Level::Position, guess.t, &guess.v);
+        self.extents = search.manifold.extents(&at, &guess.q);
+        let sizes = self.extents.iter().zip(self.weights.iter());
+        let none = NONE * sizes.fold(0.0, |most: f64, (extent, weight)| most.max(extent * weight));
         if let Some(ways) = search.ways(&at, &guess.q, (AS_NEAR, none)) {
             return ways;
         }
@@ -182,10 +186,6 @@ impl Ways<'_> {
         let mut search = Search::new(mech, guess, &self.held.positions);
         let at = At::new(mech, Level::Position, guess.t, &guess.v);
         let mut random = Random::new(0x5eed);
-        let size = match largest(&guess.q) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
         let angles = mech.spec().structure.angles;
         for k in 0..=BEGINNINGS {
             let mut q = guess.q.clone();
@@ -194,11 +194,11 @@ impl Ways<'_> {
             for j in search.free.clone() {
                 let reach = match angles.contains(&j) {
                     true => std::f64::consts::PI,
-                    false => size,
+                    false => self.extents[j],
                 };
                 q[j] += share * reach * random.signed();
             }
-            if search.manifold.search(&at, &guess.q, &mut q) == 0.0 {
+            if search.manifold.search(&at, &guess.q, &mut q).is_ok() {
                 self.approach(&mut search, &at, &mut q);
                 self.enter(q);
             }
@@ -263,10 +263,9 @@ impl Ways<'_> {
 
     /// Keeps `q`, unless it is known, but for whole turns; of places that differ by these the nearest.
     fn enter(&mut self, q: Vec<f64>) {
-        let size = largest(&q).max(largest(&self.guess.q));
         let distance = self.distance(&q);
         let angles = self.mech.spec().structure.angles;
-        let same = |way: &&mut Way| same_place(angles, size, &way.q, &q);
+        let same = |way: &&mut Way| same_place(angles, &self.extents, &way.q, &q);
         match self.found.iter_mut().find(same) {
             Some(way) if distance < way.distance => *way = Way { q, distance },
             Some(_) => {}
@@ -279,16 +278,15 @@ impl Ways<'_> {
         let angles = self.mech.spec().structure.angles;
         let mut alternatives: Vec<State> = Vec::new();
         for other in others {
-            let size = largest(&other.q).max(largest(&self.guess.q));
-            let same = |known: &State| same_place(angles, size, &known.q, &other.q);
+            let same = |known: &State| same_place(angles, &self.extents, &known.q, &other.q);
             if !same(&state) && !alternatives.iter().any(same) {
                 alternatives.push(other);
             }
         }
-        let size = largest(&self.guess.q).max(1.0);
         let change = |j: &usize| state.q[*j] - self.guess.q[*j];
         let mut moved: Vec<usize> = (0..state.q.len()).collect();
-        moved.retain(|j| !self.held.untold.contains(j) && change(j).abs() > NONE * size);
+        moved
+            .retain(|j| !self.held.untold.contains(j) && change(j).abs() > NONE * self.extents[*j]);
         let far = |j: &usize| (change(j) / self.units[*j]).abs();
         moved.sort_by(|a, b| far(b).total_cmp(&far(a)));
         let coords = self.mech.spec().coords;
@@ -301,12 +299,13 @@ impl Ways<'_> {
     }
 }
 
-/// Whether `q` is where `known` is, but for whole turns of `angles`, beside coordinates of this `size`.
-fn same_place(angles: &[usize], size: f64, known: &[f64], q: &[f64]) -> bool {
+/// Whether `q` is where `known` is, but for whole turns of `angles`, beside coordinates as large as `extents` say.
+fn same_place(angles: &[usize], extents: &[f64], known: &[f64], q: &[f64]) -> bool {
     let mut turned = known.to_vec();
     for j in angles {
         let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
         turned[*j] += turns * std::f64::consts::TAU;
     }
-    largest_difference(&turned, q) <= 1e-3 * size
+    let mut all = turned.iter().zip(q).zip(extents);
+    all.all(|((a, b), extent)| (a - b).abs() <= 1e-3 * extent)
 }

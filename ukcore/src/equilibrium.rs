@@ -8,9 +8,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::assemble::{Held, State, assembled, held};
+use crate::assemble::{Held, Search as Assembly, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
+use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
@@ -141,6 +142,8 @@ struct Place {
     basis: DMatrix<f64>,
     mass: DMatrix<f64>,
     units: DVector<f64>,
+    /// How large coordinates are.
+    extents: Vec<f64>,
     /// r, by these displacements.
     force: DVector<f64>,
     /// r, by coordinates.
@@ -184,8 +187,8 @@ impl Place {
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
         // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
-        let sizes = self.state.q.iter().zip(self.units.iter());
-        let most = sizes.fold(0.0, |s: f64, (q, unit)| s.max(q.abs().max(1.0) / unit));
+        let sizes = self.extents.iter().zip(self.units.iter());
+        let most = sizes.fold(0.0, |s: f64, (extent, unit)| s.max(extent / unit));
         let least = (self.force.amax() / most).max(f64::MIN_POSITIVE);
         let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
             true => largest.max(least),
@@ -228,8 +231,13 @@ impl Search {
         let solved = self.solver.solve(state.t, &state.q, &state.v)?;
         let mass = mass_matrix(&self.mech, &state);
         let units = units(&mass);
-        let sizes = state.q.iter().zip(units.iter());
-        self.size = sizes.fold(self.size, |s, (q, unit)| s.max((q / unit).abs()));
+        let mut assembly = Assembly::new(&self.mech, &state, &self.held);
+        let at = At::new(&self.mech, Level::Position, state.t, &state.v);
+        let extents = assembly.manifold.extents(&at, &state.q);
+        let sizes = state.q.iter().zip(&extents).zip(units.iter());
+        self.size = sizes.fold(self.size, |s, ((q, extent), unit)| {
+            s.max(q.abs().max(*extent) / unit)
+        });
         let inertial = &mass * DVector::from_vec(solved.acceleration);
         let push = inertial.component_mul(&units);
         let parts = solved.ideal_force.iter().zip(units.iter());
@@ -245,6 +253,7 @@ impl Search {
             basis,
             mass,
             units,
+            extents,
             push,
             state,
         })
@@ -254,13 +263,9 @@ impl Search {
     fn moved(&mut self, from: &Place, step: &DVector<f64>) -> Result<Place, Error> {
         let mut state = from.state.clone();
         let change = (&from.basis * step).component_mul(&from.units);
-        let size = state
-            .q
-            .iter()
-            .fold(0.0, |s: f64, q| s.max(q.abs()))
-            .max(1.0);
-        let most = change.amax();
-        let share = if most > size { size / most } else { 1.0 };
+        let shares = change.iter().zip(&from.extents);
+        let most = shares.fold(0.0, |most: f64, (d, extent)| most.max(d.abs() / extent));
+        let share = if most > 1.0 { most.recip() } else { 1.0 };
         let pairs = state.q.iter_mut().zip(change.iter());
         pairs.for_each(|(q, d)| *q += share * d);
         self.place(state)
@@ -289,7 +294,7 @@ impl Search {
         }
         let freedoms = here.force.len();
         let mut out = DMatrix::zeros(freedoms, freedoms);
-        let h = DIFFERENCE * if self.size > 0.0 { self.size } else { 1.0 };
+        let h = DIFFERENCE * self.size;
         for k in 0..freedoms {
             let mut step = DVector::zeros(freedoms);
             step[k] = h;

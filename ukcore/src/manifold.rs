@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
-use crate::scan::{Size, all_finite, largest_difference};
+use crate::scan::{all_finite, largest_difference};
 use crate::solver::Baumgarte;
 
 mod acceptance;
@@ -227,7 +227,7 @@ impl Projector {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);
-        newton.rounding(&at, q, &mut self.manifold.noise, [Size::new(0.0); 2]);
+        newton.rounding(&at, q, &mut self.manifold.noise, None);
         newton.acceptance.length(0..at.rows())
     }
 
@@ -370,7 +370,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        newton.rounding(at, x, &mut self.noise, [Size::new(0.0); 2]);
+        newton.rounding(at, x, &mut self.noise, None);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         let mut factored = false;
         self.factors.cautious = true;
@@ -409,16 +409,16 @@ impl Manifold {
         }
     }
 
-    /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
-    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: Size<f64>) -> bool {
-        self.newton.acceptance.size = size;
+    /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `others`. Whether x is on the constraints.
+    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], others: &[f64]) -> bool {
+        self.newton.acceptance.size = self.newton.acceptance.measured(others);
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
     }
 
     /// Why `x` is not on the constraints.
     pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
-        self.meets(at, x, Size::new(0.0));
+        self.meets(at, x, x);
         self.error(at, x)
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::mechanism::{Equations, Evaluated, Prepared};
 use crate::rounding::Rounded;
-use crate::scan::Size;
 
 /// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What
 /// they carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far
@@ -31,24 +30,27 @@ impl Noise {
         }
     }
 
-    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are
-    /// known to rounding of the sizes `least`, where they are less themselves.
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities j
+    /// are known to rounding of the sizes `least(j)`, where they are less themselves.
     pub(crate) fn go(
         &mut self,
         mechanism: &Prepared,
         t: f64,
         state: [&[f64]; 2],
-        least: [Size<f64>; 2],
-        ease: &[f64],
+        least: impl Fn(usize) -> [f64; 2],
     ) {
         let given = mechanism.parameters().iter();
         self.mechanism
             .set_parameters(given.map(|p| Rounded::exact(*p)));
         self.mechanism.hold_as(mechanism);
         self.t = Rounded::unknown(t);
-        for ((rounded, x), least) in [&mut self.q, &mut self.v].into_iter().zip(state).zip(least) {
+        for (k, (rounded, x)) in [&mut self.q, &mut self.v]
+            .into_iter()
+            .zip(state)
+            .enumerate()
+        {
             for (j, (rounded, x)) in rounded.iter_mut().zip(x).enumerate() {
-                *rounded = Rounded::within(*x, least.least(ease, j));
+                *rounded = Rounded::within(*x, least(j)[k]);
             }
         }
     }

@@ -24,49 +24,17 @@ pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
-/// What coordinates are measured by that are zero themselves: the others.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Size<S> {
-    /// max|x|.
-    pub(crate) largest: S,
-    /// max|x_j| / ease_j, where coordinates move as readily as `ease` says; the same where that is not known, and `ease` is empty.
-    even: S,
-}
-
-impl<S: Scalar> Size<S> {
-    pub(crate) const fn new(size: S) -> Self {
-        let (largest, even) = (size, size);
-        Size { largest, even }
+/// max|x_j|/unit_j, 0 of none; all units are 1 where there are none. Passes over NaN in an `f64`.
+#[inline]
+pub(crate) fn largest_by<S: Scalar>(x: &[S], units: &[f64]) -> S {
+    if units.is_empty() {
+        return largest(x);
     }
-
-    pub(crate) fn of(x: &[S], ease: &[f64]) -> Self {
-        let mut size = Size::new(largest(x));
-        if !ease.is_empty() {
-            let sizes = x.iter().zip(ease).map(|(x, e)| x.abs() / S::from_f64(*e));
-            size.even = sizes.fold(S::from_f64(0.0), |s, x| x.larger(s));
-        }
-        size
-    }
-
-    pub(crate) fn larger(self, other: Self) -> Self {
-        Size {
-            largest: self.largest.larger(other.largest),
-            even: self.even.larger(other.even),
-        }
-    }
-
-    /// Of coordinates with this unit, where sizes are in their units.
-    pub(crate) fn by(self, unit: f64) -> S {
-        S::from_f64(unit) * self.even
-    }
-
-    /// Of coordinate j. Inertia that vanishes at a place, as that of a quaternion does, makes none larger than all others.
-    pub(crate) fn least(self, ease: &[f64], j: usize) -> S {
-        match ease.get(j) {
-            Some(ease) => (S::from_f64(*ease) * self.even).min(self.largest),
-            None => self.largest,
-        }
-    }
+    let sizes = x
+        .iter()
+        .zip(units)
+        .map(|(x, unit)| x.abs() / S::from_f64(*unit));
+    sizes.fold(S::from_f64(0.0), |s, x| x.larger(s))
 }
 
 /// max|x − y|, 0 of none. Passes over NaN in an `f64`.

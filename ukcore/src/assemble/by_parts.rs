@@ -4,9 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::alone::Alone;
 use super::search::Search;
-use crate::manifold::{At, Part};
+use crate::manifold::{At, Manifold, Part};
 use crate::random::Random;
-use crate::scan::{largest, largest_difference};
 
 /// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
 /// coincide has vanishing gradients, from which only a perturbation leads away.
@@ -49,6 +48,8 @@ pub(super) struct ByParts<'a> {
     at: &'a At<'a, f64>,
     guess: &'a [f64],
     parts: &'a [Part],
+    /// How large coordinates are.
+    extents: Vec<f64>,
 }
 
 /// A solution of some parts.
@@ -87,14 +88,18 @@ struct Met {
 }
 
 impl Met {
-    /// Takes a solution, at which det ∂φ/∂x has the sign `orientation`.
-    fn enter(&mut self, next: Found, orientation: impl FnOnce(&[f64]) -> i32) {
-        let same = |known: &Found| largest_difference(&known.x, &next.x) <= SAME * largest(&next.x);
-        if let Some(known) = self.found.iter().position(same) {
+    /// Whether one of them is the `same`, which is then met again.
+    fn knows(&mut self, same: impl Fn(&Found) -> bool) -> bool {
+        let known = self.found.iter().position(same);
+        if let Some(known) = known {
             self.once[known] = false;
-            return;
         }
-        self.degree += orientation(&next.x);
+        known.is_some()
+    }
+
+    /// Takes another solution, at which det ∂φ/∂x has the sign `orientation`.
+    fn enter(&mut self, next: Found, orientation: i32) {
+        self.degree += orientation;
         self.found.push(next);
         self.once.push(true);
     }
@@ -114,6 +119,7 @@ impl<'a> ByParts<'a> {
     ) -> Self {
         ByParts {
             alone: Alone::new(at.mech),
+            extents: search.manifold.extents(at, guess),
             search,
             at,
             guess,
@@ -236,8 +242,7 @@ impl<'a> ByParts<'a> {
                 break;
             }
             let unknowns = &self.parts[first].unknowns;
-            let size = largest(&found.x);
-            if (unknowns.iter()).any(|j| (found.x[*j] - nearest[*j]).abs() > SAME * size) {
+            if !are_one(&self.search.manifold, unknowns, &found.x, nearest) {
                 out.extend(self.nearest(rest, found.x, left, None).map(|rest| {
                     let mut x = nearest.to_vec();
                     let unknowns = group.iter().flat_map(|part| &self.parts[*part].unknowns);
@@ -301,7 +306,11 @@ impl<'a> ByParts<'a> {
                 continue;
             };
             let manifold = &mut self.search.manifold;
-            met.enter(next, |x| manifold.orientation(self.at, part, x));
+            let same = |known: &Found| are_one(manifold, &part.unknowns, &next.x, &known.x);
+            if !met.knows(same) {
+                let orientation = manifold.orientation(self.at, part, &next.x);
+                met.enter(next, orientation);
+            }
             let first = met.found[0].distance;
             if !part.is_determined()
                 || self.search.begun >= MOST
@@ -332,18 +341,15 @@ impl<'a> ByParts<'a> {
         beginning: usize,
         random: &mut Random,
     ) -> Option<Found> {
-        let size = match largest(self.guess) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
         let angles = self.at.mech.spec().structure.angles;
         let mut place = x.to_vec();
         if let Some(share) = SHAKES.get(beginning) {
-            shake(&mut place, &part.unknowns, share * size);
+            shake(&mut place, &part.unknowns, |j| share * self.extents[j]);
         } else {
             let share = ((beginning - SHAKES.len()) % ROUND + 1) as f64 / ROUND as f64;
             for j in &part.unknowns {
-                let reach = if angles.contains(j) { PI } else { size };
+                let angle = angles.contains(j);
+                let reach = if angle { PI } else { self.extents[*j] };
                 place[*j] += share * reach * random.signed();
             }
         }
@@ -355,8 +361,8 @@ impl<'a> ByParts<'a> {
     fn search(&mut self, part: &Part, mut x: Vec<f64>) -> Option<Vec<f64>> {
         self.search.begun += 1;
         let manifold = &mut self.search.manifold;
-        let cost = manifold.search_part(self.at, part, self.guess, &mut x);
-        (cost == 0.0).then_some(x)
+        let (near, _) = manifold.search_part(self.at, part, self.guess, &mut x);
+        near.then_some(x)
     }
 
     /// A solution, with angles turned to those next to the guess.
@@ -394,16 +400,23 @@ impl<'a> ByParts<'a> {
     }
 }
 
+/// Whether the coordinates `all` in `x` and `y` are those of one solution.
+fn are_one(manifold: &Manifold, all: &[usize], x: &[f64], y: &[f64]) -> bool {
+    let most = SAME * manifold.size(x);
+    all.iter()
+        .all(|j| (x[*j] - y[*j]).abs() <= most * manifold.unit(*j))
+}
+
 /// How much coordinate `j` counts in choosing between solutions.
 fn weight(untold: &[usize], j: usize) -> f64 {
     if untold.contains(&j) { UNTOLD } else { 1.0 }
 }
 
-/// Moves the coordinates `free` by up to `by`: always in the same way, and no two of them alike.
-pub(super) fn shake(x: &mut [f64], free: &[usize], by: f64) {
+/// Moves the coordinates j of `free` by up to `by(j)`: always in the same way, and no two of them alike.
+pub(super) fn shake(x: &mut [f64], free: &[usize], by: impl Fn(usize) -> f64) {
     for (k, &j) in free.iter().enumerate() {
         let along = ((k as f64 + 1.0) * GOLDEN).fract();
-        x[j] += by * (2.0 * along - 1.0);
+        x[j] += by(j) * (2.0 * along - 1.0);
     }
 }
 
@@ -418,7 +431,10 @@ mod tests {
             let mut met = Met::default();
             for k in (0..signs.len()).chain(0..signs.len()) {
                 let (x, distance) = (vec![1.0 + k as f64], 0.0);
-                met.enter(Found { x, distance }, |_| signs[k]);
+                let next = Found { x, distance };
+                if !met.knows(|known| known.x == next.x) {
+                    met.enter(next, signs[k]);
+                }
             }
             assert_eq!(met.found.len(), signs.len());
             assert_eq!(met.seem_all(), all, "{signs:?}");

@@ -5,7 +5,6 @@ use super::{Held, State};
 use crate::error::Error;
 use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
-use crate::scan::largest;
 
 /// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls
 /// each time by the share for which it counts, in the end to rounding.
@@ -33,8 +32,10 @@ impl Search {
         let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
         // How readily each moves: 1/√M_jj.
         let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
+        let state = (guess.t, &guess.q[..], &guess.v[..]);
+        let ease = (0..n).map(ease).collect();
         Search {
-            manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
+            manifold: Manifold::with_ease(mech, state, ease, held.to_vec()),
             untold: Vec::new(),
             begun: 0,
             free: (0..n).filter(|j| !held.contains(j)).collect(),
@@ -116,10 +117,7 @@ impl Search {
         if let Some(x) = self.find_by_parts(at, guess) {
             return Ok(x);
         }
-        let size = match largest(guess) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
+        let extents = self.manifold.extents(at, guess);
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
@@ -131,11 +129,10 @@ impl Search {
             }
             for share in shakes {
                 let mut place = guess.to_vec();
-                shake(&mut place, &self.free, share * size);
-                let cost = self.manifold.search(at, guess, &mut place);
-                if cost == 0.0 {
+                shake(&mut place, &self.free, |j| share * extents[j]);
+                let Err(cost) = self.manifold.search(at, guess, &mut place) else {
                     return Ok(place);
-                }
+                };
                 if cost < least && !even {
                     (least, x) = (cost, place);
                 }

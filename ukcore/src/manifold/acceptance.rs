@@ -1,7 +1,7 @@
 //! What counts as zero.
 
 use crate::lanes::Lanes;
-use crate::scan::{Size, excess, excess_by, largest};
+use crate::scan::{excess, excess_by, largest_by};
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -17,21 +17,40 @@ pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 /// small because coordinates of one unit need not be of one size.
 pub(super) const NEIGHBOUR: f64 = 1e-4;
 
+/// What coordinates that are zero themselves are measured by: the others.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Size<L> {
+    /// max|x_j|, of coordinates of different units by these.
+    pub(super) largest: L,
+    /// max|x_j|/inertial_j, where inertias count.
+    even: L,
+}
+
+impl Size<f64> {
+    pub(super) fn larger(self, other: Self) -> Self {
+        Size {
+            largest: self.largest.max(other.largest),
+            even: self.even.max(other.even),
+        }
+    }
+}
+
 /// Sizes of the constraints' terms at a place x, and with them the residuals that count as zero there.
 #[derive(Debug, Clone)]
 pub(crate) struct Acceptance<L> {
-    /// How readily coordinates move, which says what is the same for coordinates of different units; empty where all count alike.
+    /// How readily coordinates move in a search; empty where inertia alone says it.
     pub(super) ease: Vec<f64>,
-    /// What makes coordinates of different units comparable, where they are not as readily moved as `ease` says; empty where all are of one
-    /// unit.
+    /// The same by inertias: coordinates of one unit need not be of one size, which these may tell. Empty where `ease` is.
+    pub(super) inertial: Vec<f64>,
+    /// What makes coordinates of different units comparable; empty where all are of one unit.
     pub(super) units: Vec<f64>,
     /// Coordinates that do not move at all.
     pub(super) held: Vec<usize>,
-    /// What coordinates that are zero themselves are measured by: x where the search began.
+    /// What coordinates that are zero themselves are measured by: the size of x where the search began.
     pub(super) size: Size<L>,
     /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] size).
     terms: Vec<L>,
-    /// max|A_cj|.
+    /// max|A_cj|, of coordinates of different units by these.
     entries: Vec<L>,
     /// What rounding the evaluation of each residual carries, in units of ε.
     pub(super) rounding: Vec<f64>,
@@ -43,9 +62,13 @@ impl<L: Lanes> Acceptance<L> {
         let zero = L::from_f64(0.0);
         Acceptance {
             ease: Vec::new(),
+            inertial: Vec::new(),
             units: Vec::new(),
             held: Vec::new(),
-            size: Size::new(zero),
+            size: Size {
+                largest: zero,
+                even: zero,
+            },
             terms: vec![zero; m],
             entries: vec![zero; m],
             rounding: vec![0.0; m],
@@ -58,36 +81,39 @@ impl<L: Lanes> Acceptance<L> {
         self.terms.fill(zero);
         self.entries.fill(zero);
         for &(c, j) in pattern {
-            let least = match self.units.get(j) {
-                Some(unit) => self.size.by(*unit),
-                None => self.size.least(&self.ease, j),
-            };
-            let least = L::from_f64(NEIGHBOUR) * least;
+            let unit = self.units.get(j).unwrap_or(&1.0);
+            let least = L::from_f64(NEIGHBOUR) * self.least(self.size, j);
             let entry = jacobian[j * m + c].abs();
             self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
-            self.entries[c] = entry.larger(self.entries[c]);
+            self.entries[c] = (L::from_f64(*unit) * entry).larger(self.entries[c]);
         }
     }
 
-    /// The size of x, coordinates or their changes.
+    /// The size of `x`.
+    #[inline]
     pub(super) fn measured(&self, x: &[L]) -> Size<L> {
-        Size::of(
-            x,
-            if self.units.is_empty() {
-                &self.ease
-            } else {
-                &self.units
-            },
-        )
+        let largest = self.largest(x);
+        let even = match self.inertial.is_empty() {
+            true => largest,
+            false => largest_by(x, &self.inertial),
+        };
+        Size { largest, even }
     }
 
-    /// max|x|, of coordinates of different units by these.
+    /// What coordinate j is measured by beside coordinates of this size.
+    pub(super) fn least(&self, size: Size<L>, j: usize) -> L {
+        let by = |units: &[f64], size: L| L::from_f64(*units.get(j).unwrap_or(&1.0)) * size;
+        let largest = by(&self.units, size.largest);
+        match self.inertial.is_empty() {
+            true => largest,
+            false => largest.min(by(&self.inertial, size.even)),
+        }
+    }
+
+    /// max|x|, of coordinates of different units by these: the size of coordinates, or of their changes.
     #[inline]
     pub(super) fn largest(&self, x: &[L]) -> L {
-        match self.units.is_empty() {
-            true => largest(x),
-            false => Size::of(x, &self.units).by(1.0),
-        }
+        largest_by(x, &self.units)
     }
 
     /// 0 where each change in `d` is at most `share` of x and of [`NEIGHBOUR`] of the size, or of none, else more.
@@ -96,7 +122,7 @@ impl<L: Lanes> Acceptance<L> {
         let neighbour = L::from_f64(if exact { 0.0 } else { NEIGHBOUR });
         match self.units.is_empty() {
             true => excess(d, x, share, neighbour * self.size.largest),
-            false => excess_by(d, x, share, neighbour * self.size.by(1.0), &self.units),
+            false => excess_by(d, x, share, neighbour * self.size.largest, &self.units),
         }
     }
 
@@ -124,7 +150,7 @@ impl Acceptance<f64> {
         }
     }
 
-    /// How far off the constraints `rows` x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where
+    /// How far off the constraints `rows` x is, by its size: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where
     /// one is not a number.
     pub(super) fn distance(&self, rows: impl Iterator<Item = usize>, residuals: &[f64]) -> f64 {
         rows.map(|c| (c, residuals[c]))
@@ -153,7 +179,7 @@ impl Acceptance<f64> {
         }
     }
 
-    /// The largest length in the constraints `rows`, in the unit of x: the rounding of a residual as the change of a coordinate that makes
+    /// The largest length in the constraints `rows`, by the size of x: the rounding of a residual as the change of a coordinate that makes
     /// it.
     pub(super) fn length(&self, rows: impl Iterator<Item = usize>) -> f64 {
         rows.filter(|c| self.entries[*c] > 0.0)

@@ -1,11 +1,11 @@
 //! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
 
-use super::acceptance::{Acceptance, ROUNDING, STALLED};
+use super::acceptance::{Acceptance, ROUNDING, STALLED, Size};
 use super::level::{At, Level};
 use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::noise::Noise;
-use crate::scan::{Size, largest, sum};
+use crate::scan::{largest, sum};
 use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
@@ -129,12 +129,8 @@ impl<L: Lanes> Newton<L> {
             let go = le(half, safe, left - met);
             let acceptance = &newton.acceptance;
             let change = acceptance.largest(&newton.step);
-            let size = match acceptance.units.is_empty() {
-                true => acceptance.size.largest,
-                false => acceptance.size.by(1.0),
-            };
             let falls = le(change, L::from_f64(progress) * previous, go);
-            let small = le(change, rounding * size, go);
+            let small = le(change, rounding * acceptance.size.largest, go);
             if any(small) {
                 // Where rounding alone is left: as |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level.
                 let beyond = acceptance.excess(&newton.step, x, rounding, exact);
@@ -240,7 +236,7 @@ impl Newton<f64> {
     ) {
         let size = self.acceptance.size.larger(self.acceptance.measured(x));
         let least = at.level.state(size, self.acceptance.measured(at.other));
-        self.rounding(at, x, noise, least.into());
+        self.rounding(at, x, noise, Some(least.into()));
         let Acceptance {
             ease,
             held,
@@ -255,27 +251,22 @@ impl Newton<f64> {
         }
     }
 
-    /// Takes what rounding the residuals at `x` carry, with coordinates and velocities that are known to rounding of the sizes `least`.
+    /// Takes what rounding the residuals at `x` carry, with coordinates and velocities that are known to rounding of the sizes
+    /// `least`, if any.
     pub(super) fn rounding(
         &mut self,
         at: &At<'_, f64>,
         x: &[f64],
         noise: &mut Noise,
-        least: [Size<f64>; 2],
+        least: Option<[Size<f64>; 2]>,
     ) {
-        let Acceptance {
-            ease,
-            units,
-            rounding,
-            ..
-        } = &mut self.acceptance;
-        noise.go(
-            at.mech,
-            at.t,
-            at.level.state(x, at.other).into(),
-            least,
-            if units.is_empty() { ease } else { units },
-        );
+        let (acceptance, state) = (&mut self.acceptance, at.level.state(x, at.other).into());
+        noise.go(at.mech, at.t, state, |j| {
+            least.map_or([0.0; 2], |sizes| {
+                sizes.map(|size| acceptance.least(size, j))
+            })
+        });
+        let rounding = &mut acceptance.rounding;
         match at.level {
             Level::Position => noise.residual(rounding),
             Level::Velocity => noise.residual_rate(rounding),

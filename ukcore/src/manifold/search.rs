@@ -1,14 +1,15 @@
 //! Steps with a safeguard, from far off.
 
+use std::f64::consts::PI;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::Manifold;
 use super::acceptance::ROUNDING;
-use super::level::At;
+use super::level::{At, Level};
 use super::newton::Newton;
 use super::parts::Part;
 use crate::mechanism::Prepared;
-use crate::scan::Size;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -29,6 +30,28 @@ const CLOSE: f64 = 1e-16;
 /// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
 /// rest.
 const NEAR: f64 = 1.5e-8;
+
+/// In a constraint with lengths the rounding of so many terms adds up.
+const TERMS: f64 = 16.0;
+
+/// No step turns an angle by more than this: beyond, it leads no nearer, but to angles so large that their rounding would explain any
+/// residual.
+const MOST: f64 = PI;
+
+/// Which unknowns are angles.
+fn angles(at: &At<'_, f64>) -> &'static [usize] {
+    match at.level {
+        Level::Position => at.mech.spec().structure.angles,
+        Level::Velocity => &[],
+    }
+}
+
+/// The largest turn of an angle among the unknowns of `part`, where the k-th of them changes by `step(k)`.
+fn turned(at: &At<'_, f64>, part: &Part, step: impl Fn(usize) -> f64) -> f64 {
+    let (angles, unknowns) = (angles(at), part.unknowns.iter().enumerate());
+    let turns = unknowns.filter(|(_, j)| angles.contains(j));
+    turns.fold(0.0, |most: f64, (k, _)| most.max(step(k).abs()))
+}
 
 /// The best place so far: residuals and A there, of the rows and unknowns of a part, each row scaled to unit norm, each column by how
 /// readily its coordinate moves.
@@ -93,12 +116,19 @@ impl Newton<f64> {
 }
 
 impl Manifold {
-    /// One in which coordinates move as readily as `ease` says, and those `held` not at all.
-    pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>, held: Vec<usize>) -> Self {
-        let mut manifold = Manifold::new(mechanism);
+    /// One in which coordinates move as readily as `ease` says, and those `held` not at all. What makes coordinates of different units
+    /// comparable is taken from a state.
+    pub(crate) fn with_ease(
+        mech: &Prepared,
+        (t, q, v): (f64, &[f64], &[f64]),
+        ease: Vec<f64>,
+        held: Vec<usize>,
+    ) -> Self {
+        let mut manifold = Manifold::new(mech);
+        manifold.measure(mech, t, q, v);
         let acceptance = &mut manifold.newton.acceptance;
+        acceptance.inertial.clone_from(&ease);
         (acceptance.ease, acceptance.held) = (ease, held);
-        acceptance.units.clear();
         manifold
     }
 
@@ -112,11 +142,40 @@ impl Manifold {
         self.factors.light = coordinates.to_vec();
     }
 
-    /// From here on coordinates move as readily as each other.
+    /// What makes coordinates of different units comparable.
+    pub(crate) fn unit(&self, j: usize) -> f64 {
+        *self.newton.acceptance.units.get(j).unwrap_or(&1.0)
+    }
+
+    /// The size of `x`, coordinates of different units by these.
+    pub(crate) fn size(&self, x: &[f64]) -> f64 {
+        self.newton.acceptance.largest(x)
+    }
+
+    /// How large coordinates are next to `guess`, each in its unit: as large as the largest there, or as the lengths in the constraints;
+    /// angles half a turn at most.
+    pub(crate) fn extents(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Vec<f64> {
+        self.meets(at, guess, guess);
+        let length = self.newton.acceptance.length(0..at.rows());
+        let mut size = self.size(guess).max(length / TERMS);
+        if !(size > 0.0 && size < f64::INFINITY) {
+            size = 1.0;
+        }
+        let angles = angles(at);
+        let extent = |j: usize| match size * self.unit(j) {
+            extent if angles.contains(&j) => extent.min(PI),
+            extent => extent,
+        };
+        (0..guess.len()).map(extent).collect()
+    }
+
+    /// From here on coordinates move as readily as each other, those of different units as these say.
     pub(crate) fn even(&mut self) {
-        let ease = &mut self.newton.acceptance.ease;
-        let mean = ease.iter().map(|x| x.ln()).sum::<f64>() / ease.len().max(1) as f64;
-        ease.fill(mean.exp());
+        let ease = self.ease().iter().enumerate();
+        let readily = ease.map(|(j, ease)| (ease / self.unit(j)).ln());
+        let mean = (readily.sum::<f64>() / self.ease().len().max(1) as f64).exp();
+        let even = (0..self.ease().len()).map(|j| mean * self.unit(j));
+        self.newton.acceptance.ease = even.collect();
     }
 
     /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each other.
@@ -137,31 +196,35 @@ impl Manifold {
     }
 
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
-    /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
-    pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
+    /// in the end. Fails with the sum of the squares of the scaled residuals where it is least.
+    pub(crate) fn search(
+        &mut self,
+        at: &At<'_, f64>,
+        guess: &[f64],
+        x: &mut [f64],
+    ) -> Result<(), f64> {
         let held = &self.newton.acceptance.held;
         let free = (0..x.len()).filter(|j| !held.contains(j)).collect();
         let whole = Part::whole(at.rows(), free);
-        let cost = self.search_part(at, &whole, guess, x);
-        let ease = &self.newton.acceptance.ease;
-        let met = self.meets(at, x, Size::of(guess, ease));
-        let near = met || cost == 0.0;
-        if near && self.project(at, x).is_ok() || met {
-            return 0.0;
+        let (near, cost) = self.search_part(at, &whole, guess, x);
+        let met = self.meets(at, x, guess);
+        let projected = (met || near) && self.project(at, x).is_ok();
+        match met || projected {
+            true => Ok(()),
+            false => Err(cost),
         }
-        cost
     }
 
     /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns
-    /// 0, or the sum of the squares of the scaled residuals where it is least.
+    /// whether there is such a place, and the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search_part(
         &mut self,
         at: &At<'_, f64>,
         part: &Part,
         guess: &[f64],
         x: &mut [f64],
-    ) -> f64 {
-        let size = Size::of(guess, &self.newton.acceptance.ease);
+    ) -> (bool, f64) {
+        let size = self.newton.acceptance.measured(guess);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
@@ -206,8 +269,11 @@ impl Manifold {
             };
             let back = newton.step.iter_mut().zip(&best.x).zip(x);
             back.for_each(|((d, best), x)| *d = best - x);
+            let ease = &newton.acceptance.ease;
+            let turned = turned(at, part, |k| ease[part.unknowns[k]] * step[k]);
+            let share = if turned > MOST { MOST / turned } else { 1.0 };
             for (j, d) in part.unknowns.iter().zip(step.iter()) {
-                newton.step[*j] += newton.acceptance.ease[*j] * d;
+                newton.step[*j] += share * ease[*j] * d;
             }
             (0.0, 1.0)
         });
@@ -215,9 +281,9 @@ impl Manifold {
             x.copy_from_slice(&best.x);
         }
         let near = near.unwrap_or_else(|| {
-            self.meets(at, x, size);
+            self.meets(at, x, guess);
             self.newton.is_near(part)
         });
-        if near { 0.0 } else { cost }
+        (near, cost)
     }
 }

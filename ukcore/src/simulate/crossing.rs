@@ -14,7 +14,7 @@ use crate::measure::Measure;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
 use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::{Size, largest};
+use crate::scan::largest;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 
 /// Roundings of f up to which e counts as zero, and above which it does not.
@@ -347,8 +347,7 @@ impl<'a> Search<'a> {
         // f, its slopes and its second derivatives, for each of its components.
         let phi = self.position();
         let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
-        let exactly = [Size::new(0.0); 2];
-        (self.noise).go(self.mech, self.t, [&self.q, &u], exactly, &[]);
+        (self.noise).go(self.mech, self.t, [&self.q, &u], |_| [0.0; 2]);
         self.noise.residual(&mut rounding);
         self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
         let a = self.terms.rows();

@@ -5,7 +5,7 @@ use crate::dense::Rows;
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Evaluated;
-use crate::scan::{Size, all_finite};
+use crate::scan::all_finite;
 
 /// The equations at the nearest state on the manifold.
 #[derive(Debug, Clone)]
@@ -69,8 +69,7 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise
-            .go(&self.mechanism, t, [q, v], [Size::new(0.0); 2], &[]);
+        self.noise.go(&self.mechanism, t, [q, v], |_| [0.0; 2]);
         self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());
