@@ -3,6 +3,7 @@
 mod assembly;
 mod bodies;
 mod branches;
+mod cells;
 mod closing;
 mod crossings;
 mod diagnosis;

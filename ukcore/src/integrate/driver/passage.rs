@@ -45,8 +45,10 @@ const SEEN: f64 = 0.2;
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
-/// So many steps of one size before and behind a position are made by longer ones.
-const BACK: usize = 8;
+/// So many steps of one size before a position are made by longer ones, which are to have the room to go over it as they would.
+const BACK: usize = 32;
+/// So many behind it.
+const BEYOND: usize = 8;
 
 /// Tolerance of the way back from a start, as a share of that of the run.
 const FINER: f64 = 0.1;
@@ -170,7 +172,7 @@ impl Driver<'_> {
         } else if behind && !beyond {
             // So that the rest is the step that goes over.
             course.limit((0.5 * left).min((left - middle * rest) / (1.0 - middle)));
-        } else if size <= h || bold {
+        } else if size <= h * (1.0 + OFF) || bold {
             course.h = course.along * size;
             passage.passing = true;
             if beyond {
@@ -197,7 +199,7 @@ impl Driver<'_> {
         let course = &mut self.equations.course;
         let (left, h) = (course.ahead(position.t), course.h.abs());
         let turn = Some(position.gap).filter(|gap| gap.is_finite());
-        let around = BACK as f64 * h;
+        let around = BEYOND as f64 * h;
         let size = (2.0 * left).max(around) + turn.unwrap_or(0.0).max(0.0);
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
@@ -210,7 +212,7 @@ impl Driver<'_> {
         settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
         // From far enough away: steps of the one size are short, and the last one may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
-        let near = (0.0..around).contains(&left);
+        let near = (0.0..BACK as f64 * h).contains(&left);
         let before = self.passage.before.drain(..).next().filter(|_| near);
         let before = before.map(|(place, y)| (place.t, y));
         let (t, start) = before.unwrap_or_else(|| here.clone());
