@@ -16,6 +16,9 @@ use crate::spec::Spec;
 const TURN: f64 = FRAC_PI_2 * 0.618;
 const FURTHER: f64 = 0.19;
 
+/// A is looked at so far beside a state, as a share of its size, for how it changes where nothing turns.
+const BEND: f64 = 1e-6;
+
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub(crate) struct Measure {
@@ -130,6 +133,57 @@ impl Measure {
             Turn::Together(_) => 0.0,
         });
         sizes.fold(0.0, f64::max)
+    }
+
+    /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian or of a quaternion by its length
+    /// takes what turns; where nothing does, until rows of A have changed by as much as they are, in the median. `size` is that of a state,
+    /// more than 0 if it tells anything. `None` where constraints are linear, or there are none.
+    pub(crate) fn reach(
+        &self,
+        mech: &Prepared,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        size: f64,
+    ) -> Option<f64> {
+        let turns = self.turns.iter().map(|turn| match turn {
+            Turn::Angle(i) => self.scale[*i].recip(),
+            Turn::Together(all) => {
+                let parts = all.iter().map(|i| q[*i] / self.scale[*i]);
+                parts.fold(0.0_f64, f64::hypot)
+            }
+        });
+        let turn = turns.fold(0.0, f64::max);
+        if turn > 0.0 || size == 0.0 {
+            return Some(turn).filter(|turn| *turn > 0.0);
+        }
+        let m = mech.spec().m();
+        let (mut here, mut there) = (vec![0.0; m * q.len()], vec![0.0; m * q.len()]);
+        let parts = (1..).map(|k| 2.0 * (TURN * f64::from(k)).fract() - 1.0);
+        let moves = q.iter().zip(&self.scale).zip(parts);
+        let moved: Vec<f64> = moves
+            .map(|((q, unit), part)| q + BEND * size * part * unit)
+            .collect();
+        mech.jacobian(t, q, v, &mut here);
+        mech.jacobian(t, &moved, v, &mut there);
+        self.weigh(&mut here);
+        self.weigh(&mut there);
+        let mut reaches: Vec<f64> = (0..m)
+            .filter_map(|c| {
+                let row = (0..q.len()).map(|j| (here[j * m + c], there[j * m + c]));
+                let (length, change) = row.fold((0.0_f64, 0.0_f64), |(length, change), (a, b)| {
+                    (length.hypot(a), change.hypot(b - a))
+                });
+                let reach = BEND * size * length / change;
+                // What is more is that of a row that rounding alone has changed.
+                (reach > 0.0 && reach < size / BEND).then_some(reach)
+            })
+            .collect();
+        if reaches.is_empty() {
+            return None;
+        }
+        let middle = reaches.len() / 2;
+        let (_, reach, _) = reaches.select_nth_unstable_by(middle, f64::total_cmp);
+        Some(*reach)
     }
 
     /// Measures the columns of A.

@@ -23,7 +23,8 @@ pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Opti
     let units = units(&mass_matrix(mech, from));
     let free = null_space(constraint_matrix(mech, from), &units);
     let mut projector = Projector::new(mech);
-    let size = match largest(&from.q).max(projector.length(from.t, &from.q, &from.v)) {
+    let length = projector.length(from.t, &from.q, &from.v, &vec![1.0; n]);
+    let size = match largest(&from.q).max(length) {
         size if size > 0.0 => size,
         _ => 1.0,
     };

@@ -190,7 +190,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.
 fn size(mechanism: &Prepared, at: Sample<'_>, measure: &Measure) -> f64 {
-    let lengths = || Projector::new(mechanism).length(at.t, at.q, at.v);
+    let lengths = || Projector::new(mechanism).length(at.t, at.q, at.v, &measure.scale);
     let sizes = [measure.size(at.q), measure.radian()].into_iter();
     let mut sizes = sizes.chain(std::iter::once_with(lengths)).chain([1.0]);
     let good = |size: &f64| *size > 0.0 && size.is_finite();
@@ -303,7 +303,7 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
 pub(super) fn explain(
     mechanism: &Prepared,
     start: Sample<'_>,
-    tolerance: Tolerance,
+    tolerance: &Tolerance,
     mut trouble: Trouble,
 ) -> Error {
     if trouble.is_contradiction() {
@@ -317,7 +317,8 @@ pub(super) fn explain(
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
-            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(v[*i].abs());
+            let n = q.len();
+            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
             let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
             let name = |i: usize| mechanism.spec().coords[i].to_owned();
             *fastest = first.map(|i| (name(i), acceleration[i]));

@@ -331,7 +331,8 @@ fn projection(mech: &Prepared, state: &State, random: &mut Random, found: &mut F
         return;
     }
     let mut projector = Projector::new(mech);
-    let size = largest(&state.q).max(projector.length(state.t, &state.q, &state.v));
+    let each = vec![1.0; spec.n()];
+    let size = largest(&state.q).max(projector.length(state.t, &state.q, &state.v, &each));
     let mut failed = None;
     for off in OFF {
         let mut near = state.clone();
