@@ -247,7 +247,13 @@ fn sample_times_are_decimals() {
 fn a_start_is_assembled_from_a_guess() {
     let guess = ["--guess", "x=0.6", "--guess", "dot(x)=0.5", "--hold", "x"];
     let rest = ["run", "pendulum", "--until", "0", "--json"];
-    let run = json(&[&rest[..], &guess].concat());
+    // Above and below are as near to y = 0, which is not said.
+    let open = uk(&[&rest[..], &guess].concat());
+    assert_eq!(open.status.code(), Some(DONE));
+    let note =
+        "another way to put it together is as near to what is guessed: it differs in `y` by 1.600";
+    assert!(text(&open.stderr).contains(note));
+    let run = json(&[&rest[..], &guess, &["--guess", "y=-0.5"]].concat());
     assert_eq!(run["start"], "assembled");
     let state = &run["final"];
     for (found, guessed) in [(&state["q"]["x"], 0.6), (&state["v"]["x"], 0.5)] {
