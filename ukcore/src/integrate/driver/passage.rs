@@ -364,7 +364,9 @@ impl Driver<'_> {
         } else if self.passage.passing {
             (left - 0.5 * (from + to) * size).abs() <= OFF * size
         } else {
-            size <= 0.51 * left || trial.last && size < left
+            // No further than where the next step, as long, goes over it: one held to less would be shorter each time, and never get there.
+            let most = left * (1.0 + OFF) / (1.0 + 0.5 * (from + to));
+            size <= most.max(0.51 * left) || trial.last && size < left
         };
         // Stages of a step that is far too long tell nothing of the motion.
         if made && found.gap > 0.0 && left > 4.0 * found.gap {
