@@ -1,7 +1,8 @@
 //! A mechanism whose lengths are 1e-9 … 1e9 times as large, with gravity as much larger, moves as it did: runs at the default absolute
 //! tolerance take the same steps but for rounding, whatever the coordinates are, and get to the same shapes.
 
-use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, StartOptions, Trajectory};
+use ukcore::model::StartOptions;
+use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 ukcore::multibody! {
     /// A four-bar linkage of planar bodies.
@@ -132,7 +133,7 @@ const RUNS: [(Method, f64); 6] = [
 fn sized(mechanism: &Prepared, s: f64) -> (Prepared, State) {
     let name = mechanism.spec().name;
     let mechanism = mechanism.with_parameters(vec![s]);
-    let start = mechanism.start("go", &StartOptions::default());
+    let start = mechanism.start("go", &StartOptions::new());
     let start = start.unwrap_or_else(|e| panic!("{name}, {s:e}: {e}"));
     (mechanism, start)
 }
@@ -179,5 +180,60 @@ fn runs_take_the_same_steps() {
                 assert!(off < bound, "{name}: {off:e}");
             }
         }
+    }
+}
+
+/// Through the flat rhombus, in the branch in which the output goes on along its straight line.
+#[test]
+fn the_cell_passes_its_flat_position_at_any_size() {
+    let reference = run(
+        &BodyCell::default().prepared(),
+        1.0,
+        (Method::Dop853, 1e-12),
+        2.0,
+    );
+    let methods = [
+        (Method::Dop853, 1e-7),
+        (Method::Dop853, 1e-9),
+        (Method::Dopri5, 1e-7),
+        (Method::Dopri5, 1e-11),
+        (Method::Radau5, 1e-7),
+    ];
+    for mechanism in [Cell::default().prepared(), BodyCell::default().prepared()] {
+        for how in methods {
+            for s in [1e-9, 1e-6, 1e-2, 1.0, 1e3, 1e9] {
+                let run = run(&mechanism, s, how, 2.0);
+                let name = format!("{}, {s:e}, {how:?}", mechanism.spec().name);
+                for x in run.output("straight").expect("declared") {
+                    assert!((x - 16.0 / 15.0).abs() < 1e-8, "{name}: {x}");
+                }
+                let turns = shape(&run).into_iter().zip(shape(&reference));
+                let off = turns.fold(0.0_f64, |most, (a, b)| most.max((a - b).sin().abs()));
+                assert!(off < 1e3 * how.1 + 1e-8, "{name}: {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn members_of_an_ensemble_have_their_own_size() {
+    let scales = [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9];
+    let members = scales.map(|s| {
+        let member = FourBar { s };
+        let (_, start) = sized(&member.prepared(), s);
+        (member, start)
+    });
+    let members = Ensemble::new(members.to_vec()).tolerance(1e-8).until(2.0);
+    let alone = run(
+        &FourBar::default().prepared(),
+        1.0,
+        (Method::Dop853, 1e-8),
+        2.0,
+    );
+    let alone = alone.last().expect("an end").q[FourBar::BAR_ANGLE[0]];
+    for (s, member) in scales.into_iter().zip(members) {
+        let member = member.unwrap_or_else(|e| panic!("{s:e}: {e}"));
+        let angle = member.end.q[FourBar::BAR_ANGLE[0]];
+        assert!((angle - alone).abs() < 1e-10, "{s:e}: {angle} and {alone}");
     }
 }

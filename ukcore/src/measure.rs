@@ -135,9 +135,10 @@ impl Measure {
         sizes.fold(0.0, f64::max)
     }
 
-    /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its length,
-    /// takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the length of
-    /// the shortest rod. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or there are none.
+    /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
+    /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
+    /// length of the shortest rod. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or
+    /// there are none.
     pub(crate) fn reach(
         &self,
         mech: &Prepared,
