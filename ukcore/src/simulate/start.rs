@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
 use crate::measure::Measure;
+use crate::solver::Solver;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
 
@@ -28,7 +29,7 @@ impl Simulation {
         let mut trajectory = self.trajectory();
         let mut projector = Projector::new(&self.mechanism);
         let (start, floor, tolerance) =
-            self.consistent_start(&mut projector, &mut trajectory.work)?;
+            self.consistent_start(t_end, &mut projector, &mut trajectory.work)?;
         if let Some(error) = obstacles::leaves_no_branch(&self.mechanism, &start) {
             return Err(error);
         }
@@ -77,6 +78,7 @@ impl Simulation {
     /// The start, checked and projected; what coordinates that are less count as, measured; and the tolerance of a run from there.
     fn consistent_start(
         &self,
+        t_end: f64,
         projector: &mut Projector,
         work: &mut Work,
     ) -> Result<(State, f64, Tolerance), Error> {
@@ -105,17 +107,18 @@ impl Simulation {
         }
         // A start at zero in all coordinates has no size.
         let size = if size > 0.0 { size.min(most) } else { most };
-        let tolerance = self.tolerance_of(size, &measure);
-        let floors = tolerance.floors.iter();
-        let absolute: Vec<f64> = floors.map(|floor| tolerance.relative * floor).collect();
-        let (of_q, of_v) = absolute.split_at(q.len());
-        if !near([&q, &new_q], of_q, &measure) {
+        let speed = self.speed(size, &measure, [&new_q, &v], t_end - t);
+        let tolerance = self.tolerance_of([size, speed], &measure);
+        let of_q = &tolerance.floors[..q.len()];
+        let absolute: Vec<f64> = of_q.iter().map(|x| tolerance.relative * x).collect();
+        let absolute = &absolute[..];
+        if !near([&q, &new_q], absolute, &measure) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
             return Err(off_constraint(spec, "position", &residual));
         }
         let velocity = projector.velocity(t, &new_q, &mut new_v)?;
-        if !near([&v, &new_v], of_v, &measure) {
+        if !near([&v, &new_v], absolute, &measure) {
             let mut residual = vec![0.0; spec.m()];
             mech.residual_rate(t, &new_q, &v, &mut residual);
             return Err(off_constraint(spec, "velocity", &residual));
@@ -126,16 +129,34 @@ impl Simulation {
         Ok((State { t, q, v }, size, tolerance))
     }
 
-    /// The tolerance of a run whose start has this size, measured.
-    fn tolerance_of(&self, size: f64, measure: &Measure) -> Tolerance {
-        let floors = measure.scale.iter().map(|unit| match self.absolute {
-            Some(absolute) => absolute / self.tolerance,
-            None => size * unit,
+    /// What velocities that are less count as, measured, in a run over the time `span`: `size` in a unit of time, but no more than what the
+    /// motion has at its start, or gets to within `size` by its acceleration there, or needs to go that far at all.
+    fn speed(&self, size: f64, measure: &Measure, [q, v]: [&[f64]; 2], span: f64) -> f64 {
+        let known = measure.size(v).max(size / span.abs());
+        let start = self.start.as_ref().filter(|_| known < size);
+        let Some(State { t, .. }) = start else {
+            return size;
+        };
+        let mut acceleration = vec![0.0; q.len()];
+        let mut solver = Solver::new(&self.mechanism, self.solver_options());
+        // Where there is none, nothing is known.
+        match solver.acceleration(*t, q, v, &mut acceleration) {
+            Ok(()) => size.min(known.max((size * measure.size(&acceleration)).sqrt())),
+            Err(_) => size,
+        }
+    }
+
+    /// The tolerance of a run with these sizes of coordinates and velocities, measured.
+    fn tolerance_of(&self, sizes: [f64; 2], measure: &Measure) -> Tolerance {
+        let floors = sizes.into_iter().flat_map(|size| {
+            measure.scale.iter().map(move |unit| match self.absolute {
+                Some(absolute) => absolute / self.tolerance,
+                None => size * unit,
+            })
         });
-        let floors: Vec<f64> = floors.collect();
         Tolerance {
             relative: self.tolerance,
-            floors: [&floors[..], &floors].concat(),
+            floors: floors.collect(),
         }
     }
 }
