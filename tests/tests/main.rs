@@ -33,6 +33,7 @@ mod redundant_loop;
 mod rest;
 mod rough;
 mod rows_in_time;
+mod scales;
 mod stability;
 mod starts;
 mod stiff;

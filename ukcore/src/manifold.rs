@@ -165,8 +165,9 @@ impl Projector {
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
-    /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where the projection
-    /// changes velocities by more than `most` there, the state is interpolated `again`, and they are as these constraints leave them.
+    /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where velocities before
+    /// the projection and behind it differ by `too_much` there, the state is interpolated `again`, and they are as these constraints leave
+    /// them.
     ///
     /// # Errors
     /// As [`Projector::position`].
@@ -174,14 +175,15 @@ impl Projector {
         &mut self,
         t: f64,
         y: &mut [f64],
-        most: f64,
+        too_much: impl FnOnce(&[f64], &[f64]) -> bool,
         again: impl FnOnce(&mut [f64]),
     ) -> Result<[Correction; 2], Error> {
         let n = y.len() / 2;
         let (q, v) = y.split_at_mut(n);
         let corrections = [self.position(t, q, v)?, self.velocity(t, q, v)?];
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        if corrections[1].norm > most && self.manifold.doubts(&at, v)? {
+        let changed = corrections[1].norm > 0.0 && too_much(&self.manifold.start, v);
+        if changed && self.manifold.doubts(&at, v)? {
             again(y);
             let (q, v) = y.split_at_mut(n);
             self.position(t, q, v)?;
@@ -221,9 +223,9 @@ impl Projector {
         }
     }
 
-    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
-    /// without such constraints.
-    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
+    /// The largest length in a holonomic constraint at q, where coordinates are measured by `scale`: what rounding makes of φ, over
+    /// ε max|A_cj| s_j. 0 without such constraints.
+    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64], scale: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);

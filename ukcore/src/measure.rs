@@ -16,6 +16,9 @@ use crate::spec::Spec;
 const TURN: f64 = FRAC_PI_2 * 0.618;
 const FURTHER: f64 = 0.19;
 
+/// A is looked at so far beside a state, as a share of its size, for how it changes where nothing turns.
+const BEND: f64 = 1e-6;
+
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub(crate) struct Measure {
@@ -132,6 +135,59 @@ impl Measure {
         sizes.fold(0.0, f64::max)
     }
 
+    /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
+    /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
+    /// length of the shortest rod. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or
+    /// there are none.
+    pub(crate) fn reach(
+        &self,
+        mech: &Prepared,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        size: f64,
+    ) -> Option<f64> {
+        let turns = self.turns.iter().map(|turn| match turn {
+            Turn::Angle(i) => self.scale[*i].recip(),
+            Turn::Together(all) => {
+                let parts = all.iter().map(|i| q[*i] / self.scale[*i]);
+                parts.fold(0.0_f64, f64::hypot)
+            }
+        });
+        let turn = turns.fold(0.0, f64::max);
+        if turn > 0.0 || size == 0.0 {
+            return Some(turn).filter(|turn| *turn > 0.0);
+        }
+        let (n, m) = (q.len(), mech.spec().m());
+        let jacobian = |q: &[f64]| {
+            let mut jacobian = vec![0.0; m * n];
+            mech.jacobian(t, q, v, &mut jacobian);
+            self.weigh(&mut jacobian);
+            jacobian
+        };
+        let here = jacobian(q);
+        let groups = apart(n, m, mech.spec().structure.jacobian_pattern);
+        let way = BEND * size;
+        let mut changes = vec![0.0_f64; m];
+        for group in 0..groups.iter().map(|group| group + 1).max().unwrap_or(0) {
+            let moves = q.iter().zip(&self.scale).zip(&groups);
+            let moved: Vec<f64> = moves
+                .map(|((q, unit), own)| if *own == group { q + way * unit } else { *q })
+                .collect();
+            let there = jacobian(&moved);
+            for (c, most) in changes.iter_mut().enumerate() {
+                let row = (0..n).map(|j| there[j * m + c] - here[j * m + c]);
+                *most = most.max(row.fold(0.0, f64::hypot));
+            }
+        }
+        let reaches = changes.iter().enumerate().map(|(c, change)| {
+            let length = (0..n).fold(0.0_f64, |length, j| length.hypot(here[j * m + c]));
+            way * length / change
+        });
+        // What is more is that of a row that rounding alone has changed.
+        let bent = reaches.filter(|reach| *reach > 0.0 && *reach < size / BEND);
+        bent.min_by(f64::total_cmp)
+    }
+
     /// Measures the columns of A.
     pub(crate) fn weigh(&self, jacobian: &mut [f64]) {
         if self.is_one() || jacobian.is_empty() {
@@ -211,6 +267,23 @@ impl Measure {
             false => 1.0,
         }
     }
+}
+
+/// Groups of the n coordinates, by their numbers, no two of one in a row of the `pattern` of A, which has m.
+fn apart(n: usize, m: usize, pattern: &[(usize, usize)]) -> Vec<usize> {
+    let (mut rows, mut columns) = (vec![Vec::new(); m], vec![Vec::new(); n]);
+    for &(c, j) in pattern {
+        rows[c].push(j);
+        columns[j].push(c);
+    }
+    let mut groups: Vec<usize> = Vec::with_capacity(n);
+    for column in &columns {
+        let beside = column.iter().flat_map(|c| &rows[*c]);
+        let taken: Vec<usize> = beside.filter_map(|j| groups.get(*j).copied()).collect();
+        let free = (0..).find(|group| !taken.contains(group));
+        groups.push(free.unwrap_or_default());
+    }
+    groups
 }
 
 /// Which coordinates are of one unit, of how many units they are, and what A is looked at with other values of. Units that are declared

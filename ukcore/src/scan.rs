@@ -89,13 +89,6 @@ pub(crate) fn excess_by<S: Scalar>(d: &[S], x: &[S], share: S, least: S, units: 
     beyond.fold(S::from_f64(0.0), |s, x| x.larger(s))
 }
 
-/// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
-#[inline]
-pub(crate) fn all_pairs(x: &[f64], y: &[f64], holds: impl Fn(f64, f64) -> bool) -> bool {
-    let pairs = x.iter().zip(y);
-    pairs.fold(true, |all, (x, y)| all & holds(*x, *y))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,7 +100,6 @@ mod tests {
                 let mut x = vec![-1.0; len];
                 x[place] = -2.0;
                 assert_eq!((all_finite(&x), largest(&x)), (true, 2.0));
-                assert!(!all_pairs(&x, &x, |x, y| x == -1.0 && y == -1.0));
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     x[place] = bad;
                     assert!(!all_finite(&x), "{bad} at {place} of {len}");

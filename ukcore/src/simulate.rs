@@ -151,11 +151,15 @@ impl Simulation {
         self
     }
 
-    /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero, in its own unit; positive.
+    /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero; positive. It is one plain number for all
+    /// of them, in metres or radians, or in these by a second, whatever each is: the smallest that matters should decide.
     ///
-    /// By default it is the relative one times the size of the start: the largest coordinate or velocity there or, if that is more, the
-    /// largest length in a holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of
-    /// metres. Coordinates of different units share it: the smallest that matters should decide.
+    /// By default each coordinate has its own, the relative one times what is small for it. That is the size of the start (the largest
+    /// coordinate or velocity there or, if that is more, the largest length in a holonomic constraint), but at most what takes the
+    /// mechanism into another shape: a turn by a radian, or the length of the shortest rod where nothing turns. The constraints tell what of
+    /// a length a radian is worth. So a mechanism takes the same steps in micrometres, metres and kilometres; where there is neither an
+    /// angle nor a curved constraint, the size is at most 1. Velocities have the same numbers as their coordinates, by the unit of time, or
+    /// less where the motion is slower at its start and by its acceleration there.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
         self.absolute = Some(tolerance);

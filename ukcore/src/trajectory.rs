@@ -11,7 +11,6 @@ pub use crate::integrate::sample::Sample;
 use crate::integrate::{Segment, Tolerance};
 use crate::manifold::Projector;
 use crate::mechanism::{Energy, Prepared};
-use crate::scan::largest;
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::spec::{Spec, find};
 
@@ -94,7 +93,7 @@ pub struct Trajectory {
     pub(crate) segments: Option<Vec<Segment>>,
     /// Whether states between samples are to be projected.
     pub(crate) projected: bool,
-    /// Most that states between the ends of steps are expected to be off before they are.
+    /// Most that velocities between the ends of steps are expected to be off before they are projected.
     pub(crate) error: Tolerance,
     /// Start time, and the state with which the run ended; unset before a valid start.
     pub(crate) start: f64,
@@ -119,7 +118,7 @@ impl Trajectory {
             projected: false,
             error: Tolerance {
                 relative: 0.0,
-                absolute: 0.0,
+                floors: Vec::new(),
             },
             start: 0.0,
             end: None,
@@ -279,9 +278,9 @@ impl Trajectory {
         let mut q = vec![0.0; 2 * n];
         segment.state(t, &mut q);
         if self.projected {
-            let most = self.error.at(largest(&q[n..]));
+            let too_much = |old: &[f64], new: &[f64]| self.error.is_exceeded(old, new);
             let mut projector = Projector::new(&self.mechanism);
-            projector.interpolated(t, &mut q, most, |q| segment.state(t, q))?;
+            projector.interpolated(t, &mut q, too_much, |q| segment.state(t, q))?;
         }
         let v = q.split_off(n);
         Ok(State { t, q, v })

@@ -96,12 +96,12 @@ pub(super) fn first_size<L: Lanes>(
     [y, rate]: [&[L]; 2],
     largest: L,
     order: f64,
-    tolerance: Tolerance<L>,
+    tolerance: &Tolerance<L>,
 ) -> L {
     let zero = L::from_f64(0.0);
     let (mut value, mut slope, mut change) = (zero, zero, zero);
-    for (y, rate) in y.iter().zip(rate) {
-        let weight = tolerance.at(y.abs()).recip();
+    for (i, (y, rate)) in y.iter().zip(rate).enumerate() {
+        let weight = tolerance.at(i, y.abs()).recip();
         value = value + (*y * weight) * (*y * weight);
         slope = slope + (*rate * weight) * (*rate * weight);
     }
@@ -124,8 +124,8 @@ pub(super) fn first_size<L: Lanes>(
     if rates.rate(s + guess, &probe, &mut after).is_err() {
         return guess;
     }
-    for ((y, rate), after) in y.iter().zip(rate).zip(after) {
-        let weighted = (after - *rate) / tolerance.at(y.abs());
+    for (i, ((y, rate), after)) in y.iter().zip(rate).zip(after).enumerate() {
+        let weighted = (after - *rate) / tolerance.at(i, y.abs());
         change = change + weighted * weighted;
     }
     L::from_lanes(|k| {

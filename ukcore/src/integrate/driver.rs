@@ -13,7 +13,7 @@ use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
-use crate::scan::{all_finite, all_pairs};
+use crate::scan::all_finite;
 use passage::Passage;
 use switching::Goal;
 
@@ -106,16 +106,17 @@ impl<'p> Driver<'p> {
         t_end: f64,
         settings: &'p Settings,
     ) -> Self {
-        let tolerance = settings.tolerance;
+        let tolerance = settings.tolerance.clone();
+        let scheme_tolerance = || settings.tolerance.clone();
         let explicit = matches!(method, Method::Dop853 | Method::Dopri5);
         let by_stepper = |stepper| {
             let size = StepSize::default();
             Box::new(Explicit { stepper, size })
         };
         let scheme: Box<dyn Scheme> = match method {
-            Method::Dop853 => by_stepper(Stepper::dop853(y0.to_vec(), tolerance)),
-            Method::Dopri5 => by_stepper(Stepper::dopri5(y0.to_vec(), tolerance)),
-            Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
+            Method::Dop853 => by_stepper(Stepper::dop853(y0.to_vec(), scheme_tolerance())),
+            Method::Dopri5 => by_stepper(Stepper::dopri5(y0.to_vec(), scheme_tolerance())),
+            Method::Radau5 => Box::new(Radau::new(y0, scheme_tolerance())),
             Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
         };
         Driver {
@@ -252,10 +253,10 @@ impl Driver<'_> {
         self.equations.switches.begin();
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
         let rounding = f64::max(1.0, self.noise * trial.h.abs());
-        let tolerance = self.passage.tolerance(self.settings.tolerance);
-        if tolerance != self.tolerance {
-            self.tolerance = tolerance;
-            self.scheme.tolerate(tolerance);
+        let relative = (self.passage).tolerance(self.settings.tolerance.relative);
+        if relative != self.tolerance.relative {
+            self.tolerance.relative = relative;
+            self.scheme.tolerate(relative);
         }
         let made = self.make(trial, rounding);
         self.survey(trial, made.is_ok())?;
@@ -290,7 +291,7 @@ impl Driver<'_> {
             return;
         }
         self.measured = Some(attempts);
-        let tolerance = self.settings.tolerance;
+        let tolerance = &self.settings.tolerance;
         let Ok(mut rounding) = self.rounding_of_time(s) else {
             return;
         };
@@ -334,7 +335,7 @@ impl Driver<'_> {
         if self.scheme.keeps_constraints() {
             return Ok(());
         }
-        let tolerance = self.tolerance;
+        let tolerance = &self.tolerance;
         let Equations {
             problem, course, ..
         } = &mut self.equations;
@@ -345,8 +346,11 @@ impl Driver<'_> {
         projected.map_err(|error| Refusal::End(course.note(raw, error)))?;
         let [old, new] = self.scheme.states();
         // No weight of the norm is above 1 / absolute tolerance.
-        let least = PROJECTION_LIMIT * tolerance.absolute;
-        if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
+        let least = PROJECTION_LIMIT * tolerance.relative;
+        let changes = self.raw.iter().zip(new).zip(&tolerance.floors);
+        if changes.fold(true, |all, ((raw, new), floor)| {
+            all & ((new - raw).abs() <= least * floor)
+        }) {
             return Ok(());
         }
         let change = || new.iter().zip(&self.raw).map(|(new, raw)| new - raw);
@@ -381,8 +385,9 @@ impl Driver<'_> {
         }
         let [old, new] = self.scheme.states();
         let mut along = [0.0; 2];
-        for ((old, raw), new) in old.iter().zip(&self.raw).zip(new).take(old.len() / 2) {
-            let allowed = self.tolerance.at(old.abs());
+        let pairs = old.iter().zip(&self.raw).zip(new).take(old.len() / 2);
+        for (i, ((old, raw), new)) in pairs.enumerate() {
+            let allowed = self.tolerance.at(i, old.abs());
             let [way, back] = [raw - old, raw - new].map(|x| x / allowed);
             along[0] += way * way;
             along[1] += way * back;

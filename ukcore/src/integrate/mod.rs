@@ -7,7 +7,7 @@
 //! The order of events in one step, which each method keeps:
 //!
 //! 1. attempt a step, estimate its error, reject it and shrink the step where f failed or the error is above 1 in the
-//!    error norm: the root mean square of error / (absolute + relative tolerance · |y|);
+//!    error norm: the root mean square of error / (absolute tolerance of the component + relative tolerance · |y|);
 //! 2. project the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
 //! 3. evaluate f at the projected state, for the next step to begin with;
 //! 4. where a switching function has changed its sign, repeat the step up to its zero;
@@ -274,7 +274,7 @@ pub(crate) enum Next {
 }
 
 /// Settings of a run, validated.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Settings {
     /// Of each step, for each component.
     pub(crate) tolerance: Tolerance,

@@ -48,13 +48,9 @@ const FAST: f64 = 1e-3;
 /// Errors count as at least this much where the next step looks back on them.
 const SMALLEST_PREVIOUS: f64 = 1e-2;
 
-/// Tolerance of the estimate, which is of order 3, for a step of order 5 to have the tolerance `run`: 0.1 run^⅔, as in RADAU5.
-fn estimate_tolerance(run: Tolerance) -> Tolerance {
-    let relative = 0.1 * run.relative.powf(2.0 / 3.0);
-    Tolerance {
-        relative,
-        absolute: run.absolute / run.relative * relative,
-    }
+/// Relative tolerance of the estimate, which is of order 3, for a step of order 5 to have that of the run: 0.1 run^⅔, as in RADAU5.
+fn estimate_tolerance(run: f64) -> f64 {
+    0.1 * run.powf(2.0 / 3.0)
 }
 
 /// The relative tolerance of a run, where that of the estimate is `estimate`.
@@ -115,13 +111,14 @@ pub(super) struct Radau {
 
 impl Radau {
     /// From a state, with the tolerance of the run.
-    pub(super) fn new(start: &[f64], tolerance: Tolerance) -> Self {
+    pub(super) fn new(start: &[f64], mut tolerance: Tolerance) -> Self {
+        tolerance.relative = estimate_tolerance(tolerance.relative);
         let n = start.len() / 2;
         let zeros = |rows: usize| vec![0.0; rows * start.len()];
         Radau {
             n,
             newton: Newton::new(n),
-            tolerance: estimate_tolerance(tolerance),
+            tolerance,
             size: StepSize::default(),
             start: start.to_vec(),
             end: zeros(1),
@@ -208,8 +205,8 @@ impl Scheme for Radau {
         Some([0.155, 0.645])
     }
 
-    fn tolerate(&mut self, tolerance: Tolerance) {
-        self.tolerance = estimate_tolerance(tolerance);
+    fn tolerate(&mut self, relative: f64) {
+        self.tolerance.relative = estimate_tolerance(relative);
     }
 
     fn states(&self) -> [&[f64]; 2] {
@@ -228,14 +225,14 @@ impl Scheme for Radau {
 
     fn first_size(&mut self, equations: &mut Equations<'_>, largest: f64) -> f64 {
         let start = [&self.start[..], &self.rate];
-        first_size(equations, 0.0, start, largest, ORDER, self.tolerance)
+        first_size(equations, 0.0, start, largest, ORDER, &self.tolerance)
     }
 
     fn attempt(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {
         let n = self.n;
         self.shorten = 0.5;
         self.newton.prepare(equations, step, &self.start)?;
-        weights(&mut self.weights, &self.start, &self.start, self.tolerance);
+        weights(&mut self.weights, &self.start, &self.start, &self.tolerance);
         let by_stages = self.turning.expected();
         let matrices = if by_stages {
             Matrices::Stages
@@ -257,7 +254,7 @@ impl Scheme for Radau {
         for (end, (start, change)) in self.end.iter_mut().zip(self.start.iter().zip(changes)) {
             *end = start + change;
         }
-        weights(&mut self.weights, &self.start, &self.end, self.tolerance);
+        weights(&mut self.weights, &self.start, &self.end, &self.tolerance);
         Ok(self.estimate(equations, step))
     }
 
@@ -304,7 +301,7 @@ impl Scheme for Radau {
     fn scale_error(&mut self, norm: f64) {
         let states = [&self.start[..], &self.end];
         let share = run_tolerance(self.tolerance.relative) / self.tolerance.relative;
-        sized(&mut self.error, states, self.tolerance, share * norm);
+        sized(&mut self.error, states, &self.tolerance, share * norm);
     }
 
     fn error(&self) -> Option<&[f64]> {

@@ -25,7 +25,7 @@ pub(crate) struct Stepper<S> {
     sums: Sums<S>,
     n: usize,
     /// Of a step.
-    pub(super) tolerance: Tolerance<S>,
+    pub(crate) tolerance: Tolerance<S>,
     /// State at the start of the step.
     start: Vec<S>,
     /// State at its end.
@@ -48,7 +48,7 @@ impl Stepper<f64> {
     /// Gives the [estimate](Stepper::estimate) of a closed step the size `norm`.
     pub(super) fn scale_error(&mut self, norm: f64) {
         let states = [&self.start[..], &self.end];
-        sized(&mut self.errors[..self.n], states, self.tolerance, norm);
+        sized(&mut self.errors[..self.n], states, &self.tolerance, norm);
     }
 }
 
@@ -62,7 +62,7 @@ impl<L: Lanes> Stepper<L> {
             start,
             largest,
             self.control().order,
-            self.tolerance,
+            &self.tolerance,
         )
     }
 
@@ -71,14 +71,16 @@ impl<L: Lanes> Stepper<L> {
         self.tableau.gap()
     }
 
-    /// Another motion begins in lane `k` at `y`, with this absolute tolerance.
+    /// Another motion begins in lane `k` at `y`, with these [floors](Tolerance::floors).
     #[cfg(feature = "ensemble")]
-    pub(crate) fn put(&mut self, k: usize, y: impl Iterator<Item = f64>, absolute: f64) {
+    pub(crate) fn put(&mut self, k: usize, y: impl Iterator<Item = f64>, floors: &[f64]) {
         for ((start, lost), y) in self.start.iter_mut().zip(&mut self.lost).zip(y) {
             start.set_lane(k, y);
             lost.set_lane(k, 0.0);
         }
-        self.tolerance.absolute.set_lane(k, absolute);
+        for (floor, new) in self.tolerance.floors.iter_mut().zip(floors) {
+            floor.set_lane(k, *new);
+        }
     }
 }
 
@@ -201,7 +203,7 @@ impl<S: Scalar> Stepper<S> {
         }
         (self.sums.errors)(&mut self.errors, h, &self.rates);
         // No stage is evaluated any more.
-        weights(&mut self.argument, &self.start, &self.end, self.tolerance);
+        weights(&mut self.argument, &self.start, &self.end, &self.tolerance);
         let n = self.n;
         let best = sum_of_squares(&self.errors[..n], &self.argument);
         let other = sum_of_squares(&self.errors[n..], &self.argument);

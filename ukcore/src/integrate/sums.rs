@@ -56,17 +56,37 @@ pub(super) fn sum<S: Scalar, const N: usize>(
     }
 }
 
-/// What error is allowed in a component of the size s: absolute + relative · s.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What error is allowed in each component: relative · (its size + its floor), so that relative · floor is its absolute tolerance.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tolerance<S = f64> {
     pub(crate) relative: f64,
-    pub(crate) absolute: S,
+    /// In the unit of each component: what is small beside it counts as much as it.
+    pub(crate) floors: Vec<S>,
 }
 
 impl<S: Scalar> Tolerance<S> {
+    /// In component `i`, of this size.
     #[inline(always)]
-    pub(crate) fn at(self, size: S) -> S {
-        self.absolute + S::from_f64(self.relative) * size
+    pub(crate) fn at(&self, i: usize, size: S) -> S {
+        S::from_f64(self.relative) * (self.floors[i] + size)
+    }
+
+    /// In each of components of these sizes.
+    fn of(&self, sizes: impl Iterator<Item = S>) -> impl Iterator<Item = S> {
+        let relative = S::from_f64(self.relative);
+        let pairs = sizes.zip(&self.floors);
+        pairs.map(move |(size, floor)| relative * (*floor + size))
+    }
+}
+
+impl Tolerance {
+    /// Whether `new` differs from `old` by more than is allowed where each component has the size of the largest, by the floors.
+    pub(crate) fn is_exceeded(&self, old: &[f64], new: &[f64]) -> bool {
+        let sizes = old.iter().zip(&self.floors);
+        let largest = sizes.fold(0.0_f64, |most, (x, floor)| most.max(x.abs() / floor));
+        let mut all = old.iter().zip(new).zip(&self.floors);
+        let most = self.relative * (1.0 + largest);
+        !all.all(|((old, new), floor)| (new - old).abs() <= most * floor)
     }
 }
 
@@ -79,10 +99,13 @@ pub(super) fn keeping<S: Scalar>(x: S, change: S) -> (S, S) {
 }
 
 /// `out` = 1 / tolerance at max(|old|, |new|), the weights of the [error norm](super).
-pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: Tolerance<S>) {
-    for (out, (old, new)) in out.iter_mut().zip(old.iter().zip(new)) {
-        let size = old.abs().max(new.abs());
-        *out = tolerance.at(size).recip();
+pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: &Tolerance<S>) {
+    let sizes = old
+        .iter()
+        .zip(new)
+        .map(|(old, new)| old.abs().max(new.abs()));
+    for (out, allowed) in out.iter_mut().zip(tolerance.of(sizes)) {
+        *out = allowed.recip();
     }
 }
 
@@ -105,7 +128,7 @@ pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
 }
 
 /// Gives `error`, of a step between these states, the size `norm` in the error norm; 0 stays 0.
-pub(crate) fn sized(error: &mut [f64], states: [&[f64]; 2], tolerance: Tolerance, norm: f64) {
+pub(crate) fn sized(error: &mut [f64], states: [&[f64]; 2], tolerance: &Tolerance, norm: f64) {
     let size = projection_norm(error.iter().copied(), states, tolerance);
     let factor = if size > 0.0 { norm / size } else { 0.0 };
     error.iter_mut().for_each(|error| *error *= factor);
@@ -115,7 +138,7 @@ pub(crate) fn sized(error: &mut [f64], states: [&[f64]; 2], tolerance: Tolerance
 pub(crate) fn projection_norm<S: Scalar>(
     change: impl Iterator<Item = S>,
     [old, raw]: [&[S]; 2],
-    tolerance: Tolerance<S>,
+    tolerance: &Tolerance<S>,
 ) -> S {
     let states = old.iter().zip(raw);
     let change = change.zip(states).map(|(d, (old, raw))| (d, *old, *raw));
@@ -126,11 +149,11 @@ pub(crate) fn projection_norm<S: Scalar>(
 /// their error.
 pub(crate) fn error_norm<S: Scalar>(
     change: impl Iterator<Item = (S, S, S)>,
-    tolerance: Tolerance<S>,
+    tolerance: &Tolerance<S>,
 ) -> S {
     let (mut sum, mut count) = (S::from_f64(0.0), 0.0_f64);
-    for (delta, old, new) in change {
-        let weighted = delta / tolerance.at(old.abs().max(new.abs()));
+    for (i, (delta, old, new)) in change.enumerate() {
+        let weighted = delta / tolerance.at(i, old.abs().max(new.abs()));
         sum = sum + weighted * weighted;
         count += 1.0;
     }

@@ -144,11 +144,11 @@ impl Problem for Plain {
 const EXPLICIT: [Method; 2] = [Method::Dop853, Method::Dopri5];
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
-/// Relative and absolute.
+/// Relative and absolute, of as many components as any test has.
 fn both(tolerance: f64) -> Tolerance {
     Tolerance {
         relative: tolerance,
-        absolute: tolerance,
+        floors: vec![1.0; 16],
     }
 }
 

@@ -186,7 +186,7 @@ impl Pace {
         let [old, new] = states();
         let pairs = old.as_ref().iter().zip(new.as_ref());
         let change = pairs.map(|(old, new)| (new - old, *old, *new));
-        let change = error_norm(change, self.tolerance);
+        let change = error_norm(change, &self.tolerance);
         self.change += change;
         // About a length, steps err in its direction and may be longer; smooth motion changes the state by ε^(-4/5) tolerances and more.
         let little = CHATTER.max(self.tolerance.relative.powf(-0.5));

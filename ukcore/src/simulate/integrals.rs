@@ -16,7 +16,6 @@
 use crate::diagnosis::lost_reactions;
 use crate::error::Error;
 use crate::events::States;
-use crate::integrate::Tolerance;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
 
@@ -44,7 +43,9 @@ const ROUNDING: f64 = 50.0 * f64::EPSILON;
 /// The integrals of a run, and how far they are.
 pub(super) struct Integrals {
     mechanism: Prepared,
-    tolerance: Tolerance,
+    /// Relative tolerance, and what integrals that are less than it are held to it by.
+    relative: f64,
+    floor: f64,
     /// Longest interval.
     longest: f64,
     /// Each up to the last accepted step, and up to where the step in hand is taken.
@@ -69,10 +70,15 @@ struct Sum {
 
 impl Integrals {
     /// Those of `mechanism`, zero where a run over the time `span` starts; `None` where it has none.
-    pub(super) fn new(mechanism: &Prepared, tolerance: Tolerance, span: f64) -> Option<Self> {
+    pub(super) fn new(
+        mechanism: &Prepared,
+        [relative, floor]: [f64; 2],
+        span: f64,
+    ) -> Option<Self> {
         let count = mechanism.integrals().len();
         (count > 0).then(|| Integrals {
-            tolerance,
+            relative,
+            floor,
             longest: span.abs() / RUN_PARTS,
             accepted: vec![Sum::default(); count],
             reached: vec![Sum::default(); count],
@@ -102,7 +108,7 @@ impl Integrals {
 
     /// The values where the step in hand is taken, and what the error of the motion in it makes of them, as a part of what is allowed.
     pub(super) fn reached(&self) -> (&[f64], f64) {
-        let part = |sum: &Sum| sum.moved / self.tolerance.at(sum.size);
+        let part = |sum: &Sum| sum.moved / (self.relative * (self.floor + sum.size));
         let error = self.reached.iter().map(part).fold(0.0, f64::max);
         (&self.values, error)
     }
@@ -126,7 +132,7 @@ impl Integrals {
             let parts = self.rule(states, a, b)?;
             let good = parts.iter().zip(&self.reached).all(|(part, before)| {
                 part.error <= ROUNDING * part.sum.size
-                    || part.error <= self.tolerance.relative * (before.size + part.sum.size)
+                    || part.error <= self.relative * (before.size + part.sum.size)
             });
             if good || left == 0 || middle == a || middle == b {
                 for (reached, part) in self.reached.iter_mut().zip(parts) {

@@ -303,7 +303,7 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
 pub(super) fn explain(
     mechanism: &Prepared,
     start: Sample<'_>,
-    tolerance: Tolerance,
+    tolerance: &Tolerance,
     mut trouble: Trouble,
 ) -> Error {
     if trouble.is_contradiction() {
@@ -317,7 +317,8 @@ pub(super) fn explain(
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
-            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(v[*i].abs());
+            let n = q.len();
+            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
             let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
             let name = |i: usize| mechanism.spec().coords[i].to_owned();
             *fastest = first.map(|i| (name(i), acceleration[i]));

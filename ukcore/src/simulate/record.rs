@@ -10,7 +10,6 @@ use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
 use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
-use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -114,7 +113,7 @@ impl<'s> Recorder<'s> {
             projector: &mut self.projector,
             project: trajectory.projected,
             step,
-            error: trajectory.error,
+            error: &trajectory.error,
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
@@ -264,8 +263,8 @@ struct Within<'a, 'b> {
     projector: &'a mut Projector,
     project: bool,
     step: &'a Step<'b>,
-    /// Most that is expected of the interpolant's.
-    error: Tolerance,
+    /// Most that is expected of the interpolant's, in velocities.
+    error: &'a Tolerance,
     work: &'a mut Work,
 }
 
@@ -307,13 +306,14 @@ impl States for Within<'_, '_> {
             work,
             ..
         } = self;
-        let most = self.error.at(largest(v));
+        let error = self.error;
+        let too_much = |old: &[f64], new: &[f64]| error.is_exceeded(old, new);
         let again = |y: &mut [f64]| {
             if let Some(interpolant) = &step.interpolant {
                 interpolant.state(t, y);
             }
         };
-        let corrections = projector.interpolated(t, y, most, again)?;
+        let corrections = projector.interpolated(t, y, too_much, again)?;
         work.projections += 1;
         work.projection_iterations += corrections.iter().map(|c| c.iterations).sum::<usize>();
         Ok(())

@@ -77,7 +77,7 @@ impl Run<'_> {
                 return Err(obstacles::explain(
                     mechanism,
                     start,
-                    settings.tolerance,
+                    &settings.tolerance,
                     trouble,
                 ));
             }

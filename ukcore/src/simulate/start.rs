@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
 use crate::measure::Measure;
-use crate::scan::largest;
+use crate::solver::Solver;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
 
@@ -28,7 +28,8 @@ impl Simulation {
         self.check(t_end, sink.is_none())?;
         let mut trajectory = self.trajectory();
         let mut projector = Projector::new(&self.mechanism);
-        let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
+        let (start, floor, tolerance) =
+            self.consistent_start(t_end, &mut projector, &mut trajectory.work)?;
         if let Some(error) = obstacles::leaves_no_branch(&self.mechanism, &start) {
             return Err(error);
         }
@@ -37,13 +38,19 @@ impl Simulation {
             Method::Rattle { .. } => RATTLE,
             _ => tolerance.relative,
         };
+        let share = tolerance.relative / relative;
+        let floors = &tolerance.floors[start.v.len()..];
         trajectory.error = Tolerance {
             relative: INTERPOLATED * relative,
-            absolute: INTERPOLATED * tolerance.absolute,
+            floors: floors.iter().map(|floor| share * floor).collect(),
         };
         trajectory.start = start.t;
         trajectory.end = Some(start.clone());
-        let integrals = Integrals::new(&self.mechanism, tolerance, t_end - start.t);
+        let integrals = Integrals::new(
+            &self.mechanism,
+            [tolerance.relative, floor],
+            t_end - start.t,
+        );
         let settings = Settings {
             tolerance,
             first_step: self.first_step,
@@ -68,12 +75,13 @@ impl Simulation {
         trajectory
     }
 
-    /// The start, checked and projected, and the tolerance of a run from there.
+    /// The start, checked and projected; what coordinates that are less count as, measured; and the tolerance of a run from there.
     fn consistent_start(
         &self,
+        t_end: f64,
         projector: &mut Projector,
         work: &mut Work,
-    ) -> Result<(State, Tolerance), Error> {
+    ) -> Result<(State, f64, Tolerance), Error> {
         let spec = self.mechanism.spec();
         let Some(State { t, q, v }) = self.start.clone() else {
             let what = "start";
@@ -89,14 +97,21 @@ impl Simulation {
         angles::check(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
-        let mut size = largest(&q).max(largest(&v));
-        if size > 0.0 && size < 1.0 {
+        let measure = Measure::at(mech, t, [&new_q, &v]);
+        let mut size = measure.size(&q).max(measure.size(&v));
+        // Where nothing is known of the mechanism, the unit is what things are compared with.
+        let most = measure.reach(mech, t, [&new_q, &v], size).unwrap_or(1.0);
+        if size > 0.0 && size < most {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
             size = size.max(projector.length(t, &new_q, &v));
         }
-        let tolerance = self.tolerance_of(size);
-        let absolute = tolerance.absolute;
-        let measure = Measure::at(mech, t, [&new_q, &v]);
+        // A start at zero in all coordinates has no size.
+        let size = if size > 0.0 { size.min(most) } else { most };
+        let speed = self.speed(size, &measure, [&new_q, &v], t_end - t);
+        let tolerance = self.tolerance_of([size, speed], &measure);
+        let of_q = &tolerance.floors[..q.len()];
+        let absolute: Vec<f64> = of_q.iter().map(|x| tolerance.relative * x).collect();
+        let absolute = &absolute[..];
         if !near([&q, &new_q], absolute, &measure) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
@@ -111,25 +126,50 @@ impl Simulation {
         work.projections += 1;
         work.projection_iterations += position.iterations + velocity.iterations;
         let (q, v) = (new_q, new_v);
-        Ok((State { t, q, v }, tolerance))
+        Ok((State { t, q, v }, size, tolerance))
     }
 
-    /// The tolerance of a run whose start has this size.
-    fn tolerance_of(&self, size: f64) -> Tolerance {
-        // A start at zero in all coordinates has no size.
-        let size = if size > 0.0 { size.min(1.0) } else { 1.0 };
+    /// What velocities that are less count as, measured, in a run over the time `span`: `size` in a unit of time, but no more than what the
+    /// motion has at its start, or gets to within `size` by its acceleration there, or needs to go that far at all.
+    fn speed(&self, size: f64, measure: &Measure, [q, v]: [&[f64]; 2], span: f64) -> f64 {
+        let known = measure.size(v).max(size / span.abs());
+        let start = self.start.as_ref().filter(|_| known < size);
+        let Some(State { t, .. }) = start else {
+            return size;
+        };
+        let mut acceleration = vec![0.0; q.len()];
+        let mut solver = Solver::new(&self.mechanism, self.solver_options());
+        // Where there is none, nothing is known.
+        match solver.acceleration(*t, q, v, &mut acceleration) {
+            Ok(()) => size.min(known.max((size * measure.size(&acceleration)).sqrt())),
+            Err(_) => size,
+        }
+    }
+
+    /// The tolerance of a run with these sizes of coordinates and velocities, measured.
+    fn tolerance_of(&self, sizes: [f64; 2], measure: &Measure) -> Tolerance {
+        let floors = sizes.into_iter().flat_map(|size| {
+            measure.scale.iter().map(move |unit| match self.absolute {
+                Some(absolute) => absolute / self.tolerance,
+                None => size * unit,
+            })
+        });
         Tolerance {
             relative: self.tolerance,
-            absolute: self.absolute.unwrap_or(self.tolerance * size),
+            floors: floors.collect(),
         }
     }
 }
 
-/// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
-fn near([before, after]: [&[f64]; 2], absolute: f64, measure: &Measure) -> bool {
+/// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.
+fn near([before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
     let size = START_BOUND * measure.size(before);
-    let mut pairs = before.iter().zip(after).zip(&measure.scale);
-    pairs.all(|((before, after), unit)| (after - before).abs() <= size * unit + absolute)
+    let changes = before
+        .iter()
+        .zip(after)
+        .map(|(before, after)| (after - before).abs());
+    let mut all = changes.zip(measure.scale.iter().zip(absolute));
+    all.all(|(change, (unit, absolute))| change <= size * unit + absolute)
 }
 
 fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {

@@ -10,7 +10,7 @@ use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Method, Outcome, Singular, Tolerance};
+use crate::integrate::{Method, Outcome, Singular};
 use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -105,8 +105,8 @@ impl Passage {
         self.before.push_back((now, y));
     }
 
-    /// The tolerance of the step in hand, in a run with this one.
-    pub(super) fn tolerance(&self, mut tolerance: Tolerance) -> Tolerance {
+    /// The relative tolerance of the step in hand, in a run with this one.
+    pub(super) fn tolerance(&self, run: f64) -> f64 {
         if let Some(position) = &self.ahead {
             let significance = self.distance * position.rate;
             let noise = if position.gap > 0.0 { TURNING } else { NOISE };
@@ -114,11 +114,9 @@ impl Passage {
                 true => COARSEST,
                 false => (noise / (significance * significance)).min(COARSEST),
             };
-            let coarser = (least / tolerance.relative).max(1.0);
-            tolerance.relative *= coarser;
-            tolerance.absolute *= coarser;
+            return least.max(run);
         }
-        tolerance
+        run
     }
 }
 
@@ -204,10 +202,8 @@ impl Driver<'_> {
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
-        let mut settings = *self.settings;
-        let finer = DETOUR / settings.tolerance.relative;
-        settings.tolerance.relative *= finer;
-        settings.tolerance.absolute *= finer;
+        let mut settings = self.settings.clone();
+        settings.tolerance.relative = DETOUR;
         settings.first_step = None;
         settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
         // From far enough away: steps of the one size are short, and the last one may have gone just before the position.
@@ -305,9 +301,8 @@ impl Driver<'_> {
     /// state of a motion that has come from somewhere. `None` if there is no telling.
     fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
         let from = self.equations.course.now;
-        let mut settings = *self.settings;
+        let mut settings = self.settings.clone();
         settings.tolerance.relative *= FINER;
-        settings.tolerance.absolute *= FINER;
         (settings.first_step, settings.dense) = (None, false);
         let mut found = None;
         let (mut t, mut y) = (from.t, self.scheme.start().to_vec());

@@ -28,7 +28,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 fn stepper<S: Scalar>(method: Method, y: &[S]) -> Stepper<S> {
     let tolerance = Tolerance {
         relative: 1e-9,
-        absolute: S::from_f64(1e-9),
+        floors: vec![S::from_f64(1.0); y.len()],
     };
     if method == Method::Dop853 {
         Stepper::dop853(y.to_vec(), tolerance)

@@ -107,7 +107,7 @@ impl<'a> Group<'a> {
         let zeros = vec![Wide::from_f64(0.0); 2 * spec.n()];
         let tolerance = Tolerance {
             relative: ensemble.tolerance,
-            absolute: Wide::from_f64(0.0),
+            floors: zeros.clone(),
         };
         Group {
             ensemble,
@@ -182,8 +182,7 @@ impl<'a> Group<'a> {
                 continue;
             };
             let y = start.q.iter().chain(&start.v).copied();
-            let absolute = running.settings.tolerance.absolute;
-            self.stepper.put(k, y, absolute);
+            self.stepper.put(k, y, &running.settings.tolerance.floors);
             self.members.t0.set_lane(k, start.t);
             self.members.solver.put(k, mechanism.clone());
             self.members.lanes[k] = Some(running);
@@ -305,7 +304,6 @@ impl<'a> Group<'a> {
         let members = &mut self.members;
         let wanted = mask(&members.alive);
         let t = members.each(|r| r.trial.end.t);
-        let absolute = members.each(|r| r.settings.tolerance.absolute);
         self.raw.copy_from_slice(self.stepper.states()[1]);
         let new = self.stepper.end_mut();
         let (q, v) = new.split_at_mut(new.len() / 2);
@@ -326,9 +324,7 @@ impl<'a> Group<'a> {
         }
         let [old, new] = self.stepper.states();
         let change = new.iter().zip(&self.raw).map(|(new, raw)| *new - *raw);
-        let relative = self.ensemble.tolerance;
-        let tolerance = Tolerance { relative, absolute };
-        let change = projection_norm(change, [old, &self.raw], tolerance);
+        let change = projection_norm(change, [old, &self.raw], &self.stepper.tolerance);
         for (k, running) in members.running(&alive.clone()) {
             let [new, raw, old] = [new, &self.raw, old].map(|y| lane(y, k));
             let near = change.lane(k) <= PROJECTION_LIMIT;

@@ -41,10 +41,10 @@ impl Running {
             course: Course::new(start.t, t_end, &settings),
             size: StepSize::default(),
             trial: Trial::default(),
+            rows: RowWatch::new(Method::Dop853, settings.tolerance.relative),
             settings,
             recorder,
             start,
-            rows: RowWatch::new(Method::Dop853, settings.tolerance.relative),
         })
     }
 
@@ -73,7 +73,7 @@ impl Running {
         let Sample { t, q, v, .. } = Sample::of(self.trial.end.t, raw);
         let mut excess: Vec<f64> = new.iter().zip(raw).map(|(new, raw)| new - raw).collect();
         self.recorder.projector.excess(t, q, v, &mut excess);
-        let tolerance = self.settings.tolerance;
+        let tolerance = &self.settings.tolerance;
         projection_norm(excess.into_iter(), [old, raw], tolerance) <= PROJECTION_LIMIT
     }
 
@@ -114,7 +114,7 @@ impl Running {
         coefficients: &[f64],
         (mut error, norm): (Vec<f64>, f64),
     ) -> bool {
-        sized(&mut error, [&old, &new], self.settings.tolerance, norm);
+        sized(&mut error, [&old, &new], &self.settings.tolerance, norm);
         let mut step = (self.course).show(self.trial, [&old, &new], Some(coefficients));
         step.error = Some(&error);
         let recorded = self.recorder.step(&step);
@@ -128,7 +128,7 @@ impl Running {
         let trouble = self.course.explain(error, here);
         let mechanism = self.recorder.trajectory.mechanism();
         let start = Sample::from(&self.start);
-        obstacles::explain(mechanism, start, self.settings.tolerance, trouble)
+        obstacles::explain(mechanism, start, &self.settings.tolerance, trouble)
     }
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.

@@ -1,0 +1,240 @@
+//! A mechanism whose lengths are 1e-9 … 1e9 times as large, with gravity as much larger, moves as it did: runs at the default absolute
+//! tolerance take the same steps but for rounding, whatever the coordinates are, and get to the same shapes.
+
+use ukcore::model::StartOptions;
+use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
+
+ukcore::multibody! {
+    /// A four-bar linkage of planar bodies.
+    FourBar {
+        params { s = 1.0 }
+        let l = [0.5, 2.0, 1.5];
+        gravity { [0, -9.81 * s] }
+        bodies { for i in 0..3 { planar bar[i] { mass: 1, inertia: sq(l[i] * s) / 12, centre: [l[i] * s / 2, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0] * s, 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1] * s, 0]), bar[2].at([l[2] * s, 0]))
+            r: pin(bar[2].at([0, 0]), ground.at([2 * s, 0]))
+        }
+        start go { bar[0].angle = 1.0; dot(bar[0].angle) = 6.0; bar[1].angle near 0.3; bar[2].angle near 1.4 }
+        output { shape = bar[2].angle }
+    }
+}
+
+ukcore::multibody! {
+    /// A slider-crank by angles, with a slider without mass.
+    SliderCrank {
+        params { s = 1.0 }
+        coords { x, a, b }
+        mass { a: 0.01 * sq(s), b: 0.03 * sq(s) }
+        force { x: -0.2 * s }
+        holonomic {
+            along: x = s * (0.1 * cos(a) + 0.3 * cos(b))
+            across: 0.1 * s * sin(a) + 0.3 * s * sin(b) = 0
+        }
+        start go { a = 0.7; dot(a) = 10.0; b near -0.2; x near 0.4 }
+        output { shape = x / s }
+    }
+}
+
+ukcore::multibody! {
+    /// A rigid body by a quaternion on a ball joint.
+    Top {
+        params { s = 1.0 }
+        gravity { [0, 0, -9.81 * s] }
+        bodies { spatial top { mass: 1, inertia: [0.09 * sq(s), 0.08 * sq(s), 0.05 * sq(s)] } }
+        holonomic { o: ball(ground.at([0, 0, 0]), top.at([0, 0, s])) }
+        start go { top.e0 = 0.9; top.e1 = 0.3; top.e2 near 0.1; top.e3 = 0.2; top.spin = [0.1, 0.7, 2.0] }
+        output { shape = top.axes[0][0] }
+    }
+}
+
+ukcore::multibody! {
+    /// A pendulum of two points on rods: nothing turns that is a coordinate.
+    Points {
+        params { s = 1.0 }
+        coords { p[2], r[2] }
+        mass { p: 1.0, r: 0.5 }
+        potential { 9.81 * s * (p[1] + 0.5 * r[1]) }
+        holonomic { upper: sq(p) = sq(s), lower: sq(r - p) = sq(0.4 * s) }
+        start go { p[0] near s; p[1] = 0.0; r[0] near s; r[1] near -0.3 * s }
+        output { shape = atan2(r[1] - p[1], r[0] - p[0]) }
+    }
+}
+
+ukcore::multibody! {
+    /// Peaucellier's cell of uniform bars, by their ends. Where the rhombus is flat its side points meet, two constraints follow from the
+    /// others, and branches cross in which they stay together.
+    Cell {
+        params { s = 1.0 }
+        coords { b[2], c[2], d[2], p[2] }
+        let bar = |u, v| (sq(dot(u)) + inner(dot(u), dot(v)) + sq(dot(v))) / 3;
+        let q = [0.15 * s, 0];
+        kinetic { (sq(dot(c)) + sq(dot(d)) + 0.5 * sq(dot(b))) / 3, bar(b, c), bar(b, d), bar(p, c), bar(p, d) }
+        potential { 9.81 * s * (3 * c[1] + 3 * d[1] + 2.5 * b[1] + 2 * p[1]) }
+        holonomic {
+            oc: sq(c) = sq(0.5 * s) od: sq(d) = sq(0.5 * s) qb: sq(b - q) = sq(0.15 * s)
+            bc: sq(b - c) = sq(0.3 * s) bd: sq(b - d) = sq(0.3 * s) pc: sq(p - c) = sq(0.3 * s) pd: sq(p - d) = sq(0.3 * s)
+        }
+        start go {
+            b = [0.15 * s * (1 + cos(0.6)), 0.15 * s * sin(0.6)];
+            c near [0.35 * s, 0.35 * s]; d near [0.45 * s, -0.2 * s]; p near [0.533 * s, 0.17 * s]
+        }
+        output { shape = atan2(b[1], b[0] - 0.15 * s), straight = p[0] / s }
+    }
+}
+
+ukcore::multibody! {
+    /// The same of planar bodies.
+    BodyCell {
+        params { s = 1.0 }
+        gravity { [0, -9.81 * s] }
+        let long = 0.5 * s;
+        let short = 0.3 * s;
+        bodies {
+            planar crank { mass: 1, inertia: sq(0.15 * s) / 12, centre: [0.075 * s, 0] }
+            for i in 0..2 {
+                planar arm[i] { mass: 2, inertia: sq(long) / 6, centre: [long / 2, 0] }
+                planar near_bar[i] { mass: 2, inertia: sq(short) / 6, centre: [short / 2, 0] }
+                planar far_bar[i] { mass: 2, inertia: sq(short) / 6, centre: [short / 2, 0] }
+            }
+        }
+        holonomic {
+            q: pin(ground.at([0.15 * s, 0]), crank.at([0, 0]))
+            for i in 0..2 {
+                o[i]: pin(ground.at([0, 0]), arm[i].at([0, 0]))
+                k[i]: pin(arm[i].at([long, 0]), near_bar[i].at([short, 0]))
+                l[i]: pin(arm[i].at([long, 0]), far_bar[i].at([0, 0]))
+                b[i]: pin(crank.at([0.15 * s, 0]), near_bar[i].at([0, 0]))
+            }
+            p: pin(far_bar[0].at([short, 0]), far_bar[1].at([short, 0]))
+        }
+        start go {
+            crank.angle = 0.6;
+            arm[0].angle near 0.71; arm[1].angle near -0.46; near_bar[0].angle near 2.2; near_bar[1].angle near -1.5;
+            far_bar[0].angle near -0.4; far_bar[1].angle near 1.1
+        }
+        output { shape = crank.angle, straight = far_bar[0].at([short, 0])[0] / s }
+    }
+}
+
+const SCALES: [f64; 8] = [1e-9, 1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6, 1e9];
+
+const RUNS: [(Method, f64); 6] = [
+    (Method::Dop853, 1e-4),
+    (Method::Dop853, 1e-9),
+    (Method::Dopri5, 1e-6),
+    (Method::Dopri5, 1e-8),
+    (Method::Radau5, 1e-5),
+    (Method::Radau5, 1e-7),
+];
+
+/// The mechanism that many times as large, and its start.
+fn sized(mechanism: &Prepared, s: f64) -> (Prepared, State) {
+    let name = mechanism.spec().name;
+    let mechanism = mechanism.with_parameters(vec![s]);
+    let start = mechanism.start("go", &StartOptions::new());
+    let start = start.unwrap_or_else(|e| panic!("{name}, {s:e}: {e}"));
+    (mechanism, start)
+}
+
+fn run(mechanism: &Prepared, s: f64, (method, tolerance): (Method, f64), until: f64) -> Trajectory {
+    let name = mechanism.spec().name;
+    let (mechanism, start) = sized(mechanism, s);
+    let run = Simulation::new(mechanism).start(start).method(method);
+    let run = run.tolerance(tolerance).every(0.05).until(until);
+    run.unwrap_or_else(|e| panic!("{name}, {s:e}, {method}, {tolerance:e}: {e}"))
+}
+
+fn shape(run: &Trajectory) -> Vec<f64> {
+    run.output("shape").expect("declared")
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+#[test]
+fn runs_take_the_same_steps() {
+    let cases = [
+        (FourBar::default().prepared(), 2.0),
+        (SliderCrank::default().prepared(), 2.0),
+        (Top::default().prepared(), 2.0),
+        (Points::default().prepared(), 2.0),
+        (Cell::default().prepared(), 0.3),
+        (BodyCell::default().prepared(), 0.3),
+    ];
+    for (mechanism, until) in cases {
+        for how in RUNS {
+            let one = run(&mechanism, 1.0, how, until);
+            for s in SCALES {
+                let other = run(&mechanism, s, how, until);
+                let name = format!("{}, {s:e}, {how:?}", mechanism.spec().name);
+                let [a, b] = [one.work(), other.work()].map(|work| work.steps + work.rejected);
+                assert!(a.abs_diff(b) <= 2, "{name}: {a} and {b} attempts");
+                let off = largest_difference(&shape(&one), &shape(&other));
+                // A step that rounding decides on changes the error, not its size.
+                let bound = if a == b { 1e-9 } else { 10.0 * how.1 };
+                assert!(off < bound, "{name}: {off:e}");
+            }
+        }
+    }
+}
+
+/// Through the flat rhombus, in the branch in which the output goes on along its straight line.
+#[test]
+fn the_cell_passes_its_flat_position_at_any_size() {
+    let reference = run(
+        &BodyCell::default().prepared(),
+        1.0,
+        (Method::Dop853, 1e-12),
+        2.0,
+    );
+    let methods = [
+        (Method::Dop853, 1e-7),
+        (Method::Dop853, 1e-9),
+        (Method::Dopri5, 1e-7),
+        (Method::Dopri5, 1e-11),
+        (Method::Radau5, 1e-7),
+    ];
+    for mechanism in [Cell::default().prepared(), BodyCell::default().prepared()] {
+        for how in methods {
+            for s in [1e-9, 1e-6, 1e-2, 1.0, 1e3, 1e9] {
+                let run = run(&mechanism, s, how, 2.0);
+                let name = format!("{}, {s:e}, {how:?}", mechanism.spec().name);
+                for x in run.output("straight").expect("declared") {
+                    assert!((x - 8.0 / 15.0).abs() < 1e-8, "{name}: {x}");
+                }
+                let turns = shape(&run).into_iter().zip(shape(&reference));
+                let off = turns.fold(0.0_f64, |most, (a, b)| most.max((a - b).sin().abs()));
+                assert!(off < 1e3 * how.1 + 1e-8, "{name}: {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn members_of_an_ensemble_have_their_own_size() {
+    let scales = [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9];
+    let members = scales.map(|s| {
+        let member = FourBar { s };
+        let (_, start) = sized(&member.prepared(), s);
+        (member, start)
+    });
+    let members = Ensemble::new(members.to_vec()).tolerance(1e-8).until(2.0);
+    let alone = run(
+        &FourBar::default().prepared(),
+        1.0,
+        (Method::Dop853, 1e-8),
+        2.0,
+    );
+    let alone = alone.last().expect("an end").q[FourBar::BAR_ANGLE[0]];
+    for (s, member) in scales.into_iter().zip(members) {
+        let member = member.unwrap_or_else(|e| panic!("{s:e}: {e}"));
+        let angle = member.end.q[FourBar::BAR_ANGLE[0]];
+        assert!((angle - alone).abs() < 1e-10, "{s:e}: {angle} and {alone}");
+    }
+}
