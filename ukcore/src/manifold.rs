@@ -223,9 +223,9 @@ impl Projector {
         }
     }
 
-    /// The largest length in a holonomic constraint at q, where coordinates are measured by `scale`: what rounding makes of φ, over
-    /// ε max|A_cj| s_j. 0 without such constraints.
-    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64], scale: &[f64]) -> f64 {
+    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
+    /// without such constraints.
+    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);

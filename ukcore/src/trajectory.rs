@@ -278,7 +278,7 @@ impl Trajectory {
         let mut q = vec![0.0; 2 * n];
         segment.state(t, &mut q);
         if self.projected {
-            let too_much = |old: &[f64], new: &[f64]| self.error.is_exceeded(old, new);
+            let too_much = |old: &[f64], new: &[f64]| self.error.excess(0, old, new) > 1.0;
             let mut projector = Projector::new(&self.mechanism);
             projector.interpolated(t, &mut q, too_much, |q| segment.state(t, q))?;
         }

@@ -434,7 +434,7 @@ impl Driver<'_> {
         let coefficients = wanted.then(|| self.scheme.dense());
         let mut step = (equations.course).show(trial, self.scheme.states(), coefficients);
         if let (Some(_), Some(known)) = (self.passage.retreated, known)
-            && !step.leads_through(known, self.tolerance)
+            && !step.leads_through(known, &self.tolerance)
         {
             return Err(Refusal::Astray);
         }

@@ -41,7 +41,6 @@ use std::str::FromStr;
 use crate::error::Error;
 use crate::mechanism::Branch;
 use crate::numbers::full;
-use crate::scan::largest;
 use crate::spec::SwitchSpec;
 #[cfg(feature = "ensemble")]
 pub(crate) use control::StepSize;
@@ -249,18 +248,15 @@ pub(crate) struct Step<'a> {
 
 impl Step<'_> {
     /// Whether it goes, as nearly as steps with this tolerance do, through a state within it.
-    fn leads_through(&self, known: Sample<'_>, tolerance: Tolerance) -> bool {
+    fn leads_through(&self, known: Sample<'_>, tolerance: &Tolerance) -> bool {
         let mut y = [known.q, known.v].concat();
         if let Some(interpolant) = &self.interpolant {
             interpolant.state(known.t, &mut y);
         }
         let (q, v) = y.split_at(known.q.len());
-        // By the largest of each: one that is small is no more exact than others.
-        [(known.q, q), (known.v, v)].iter().all(|(known, found)| {
-            let changes = known.iter().zip(*found).map(|(a, b)| (a - b).abs());
-            let allowed = ASTRAY * tolerance.at(largest(known).max(largest(found)));
-            changes.fold(0.0, f64::max) <= allowed
-        })
+        let excess = [(0, known.q, q), (q.len(), known.v, v)]
+            .map(|(first, known, found)| tolerance.excess(first, known, found));
+        excess.iter().all(|excess| *excess <= ASTRAY)
     }
 }
 

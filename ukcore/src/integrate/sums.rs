@@ -80,13 +80,15 @@ impl<S: Scalar> Tolerance<S> {
 }
 
 impl Tolerance {
-    /// Whether `new` differs from `old` by more than is allowed where each component has the size of the largest, by the floors.
-    pub(crate) fn is_exceeded(&self, old: &[f64], new: &[f64]) -> bool {
-        let sizes = old.iter().zip(&self.floors);
-        let largest = sizes.fold(0.0_f64, |most, (x, floor)| most.max(x.abs() / floor));
-        let mut all = old.iter().zip(new).zip(&self.floors);
-        let most = self.relative * (1.0 + largest);
-        !all.all(|((old, new), floor)| (new - old).abs() <= most * floor)
+    /// The largest difference of these components, the first of which is `first`, over what is allowed where each has the size of the
+    /// largest, by the floors: one that is small is no more exact than others.
+    pub(crate) fn excess(&self, first: usize, old: &[f64], new: &[f64]) -> f64 {
+        let (mut size, mut change) = (0.0_f64, 0.0_f64);
+        for ((old, new), floor) in old.iter().zip(new).zip(self.floors.iter().skip(first)) {
+            size = size.max(old.abs().max(new.abs()) / floor);
+            change = change.max((new - old).abs() / floor);
+        }
+        change / (self.relative * (1.0 + size))
     }
 }
 

@@ -307,7 +307,7 @@ impl States for Within<'_, '_> {
             ..
         } = self;
         let error = self.error;
-        let too_much = |old: &[f64], new: &[f64]| error.is_exceeded(old, new);
+        let too_much = |old: &[f64], new: &[f64]| error.excess(0, old, new) > 1.0;
         let again = |y: &mut [f64]| {
             if let Some(interpolant) = &step.interpolant {
                 interpolant.state(t, y);
