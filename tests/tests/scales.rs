@@ -33,7 +33,7 @@ ukcore::multibody! {
             along: x = s * (0.1 * cos(a) + 0.3 * cos(b))
             across: 0.1 * s * sin(a) + 0.3 * s * sin(b) = 0
         }
-        start go { a = 0.7; dot(a) = 10.0; b near -0.2; x near 0.4 }
+        start go { a = 0.7; dot(a) = 10.0; b near -0.2; x near 0.4 * s }
         output { shape = x / s }
     }
 }
@@ -205,8 +205,10 @@ fn the_cell_passes_its_flat_position_at_any_size() {
             for s in [1e-9, 1e-6, 1e-2, 1.0, 1e3, 1e9] {
                 let run = run(&mechanism, s, how, 2.0);
                 let name = format!("{}, {s:e}, {how:?}", mechanism.spec().name);
+                // Between the ends of steps states are as exact as these.
                 for x in run.output("straight").expect("declared") {
-                    assert!((x - 8.0 / 15.0).abs() < 1e-8, "{name}: {x}");
+                    let off = (x - 8.0 / 15.0).abs();
+                    assert!(off < how.1.max(1e-9), "{name}: {off:e}");
                 }
                 let turns = shape(&run).into_iter().zip(shape(&reference));
                 let off = turns.fold(0.0_f64, |most, (a, b)| most.max((a - b).sin().abs()));

@@ -19,6 +19,9 @@ const FURTHER: f64 = 0.19;
 /// A is looked at so far beside a state, as a share of its size, for how it changes where nothing turns.
 const BEND: f64 = 1e-6;
 
+/// A rod that is shorter than this share of a state, known to no more than three digits there, is none.
+const LEAST: f64 = 1e3 * f64::EPSILON;
+
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub(crate) struct Measure {
@@ -183,8 +186,8 @@ impl Measure {
             let length = (0..n).fold(0.0_f64, |length, j| length.hypot(here[j * m + c]));
             way * length / change
         });
-        // What is more is that of a row that rounding alone has changed.
-        let bent = reaches.filter(|reach| *reach > 0.0 && *reach < size / BEND);
+        // What is more is that of a row that rounding alone has changed; what is less, of one that vanishes here.
+        let bent = reaches.filter(|reach| *reach > LEAST * size && *reach < size / BEND);
         bent.min_by(f64::total_cmp)
     }
 

@@ -253,10 +253,9 @@ impl Driver<'_> {
         self.equations.switches.begin();
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
         let rounding = f64::max(1.0, self.noise * trial.h.abs());
-        let relative = (self.passage).tolerance(self.settings.tolerance.relative);
-        if relative != self.tolerance.relative {
-            self.tolerance.relative = relative;
-            self.scheme.tolerate(relative);
+        let start = Sample::of(self.equations.course.now.t, self.scheme.start());
+        if (self.passage).ease(&mut self.tolerance, &self.settings.tolerance, start.v) {
+            self.scheme.tolerate(&self.tolerance);
         }
         let made = self.make(trial, rounding);
         self.survey(trial, made.is_ok())?;

@@ -1,5 +1,6 @@
 //! The explicit Runge-Kutta methods as schemes.
 
+use super::Tolerance;
 use super::control::StepSize;
 use super::course::Trial;
 use super::scheme::{Equations, Scheme};
@@ -25,8 +26,8 @@ impl Scheme for Explicit {
         Some(self.stepper.gap())
     }
 
-    fn tolerate(&mut self, relative: f64) {
-        self.stepper.tolerance.relative = relative;
+    fn tolerate(&mut self, tolerance: &Tolerance) {
+        self.stepper.tolerance.clone_from(tolerance);
     }
 
     fn begin(&mut self, equations: &mut Equations<'_>) -> Result<(), Cause> {

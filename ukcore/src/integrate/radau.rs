@@ -205,8 +205,9 @@ impl Scheme for Radau {
         Some([0.155, 0.645])
     }
 
-    fn tolerate(&mut self, relative: f64) {
-        self.tolerance.relative = estimate_tolerance(relative);
+    fn tolerate(&mut self, tolerance: &Tolerance) {
+        self.tolerance.clone_from(tolerance);
+        self.tolerance.relative = estimate_tolerance(tolerance.relative);
     }
 
     fn states(&self) -> [&[f64]; 2] {

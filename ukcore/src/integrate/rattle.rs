@@ -11,6 +11,7 @@
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
+use super::Tolerance;
 use super::course::Trial;
 use super::dense::cubic;
 use super::scheme::{Equations, Scheme};
@@ -112,7 +113,7 @@ impl Scheme for Rattle {
         None
     }
 
-    fn tolerate(&mut self, _: f64) {}
+    fn tolerate(&mut self, _: &Tolerance) {}
 
     fn states(&self) -> [&[f64]; 2] {
         [&self.start, &self.end]

@@ -3,12 +3,12 @@
 //! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A
 //! [`Scheme`] makes one step at a time and says how long the next one should be.
 
-use super::Problem;
 use super::course::{Course, Trial};
 use super::sample::Sample;
 use super::stepper::Rates;
 use super::switches::Switches;
 use super::trouble::Cause;
+use super::{Problem, Tolerance};
 
 /// The problem's functions over s, the signed time since the start of the run, and what they were found to do.
 pub(super) struct Equations<'p> {
@@ -161,8 +161,8 @@ pub(super) trait Scheme {
     /// Size of the next attempt after one of size `h` whose end did not do.
     fn unfit(&mut self, h: f64) -> f64;
 
-    /// From the next attempt on steps have this relative tolerance, with the floors that they had.
-    fn tolerate(&mut self, relative: f64);
+    /// From the next attempt on steps have this tolerance.
+    fn tolerate(&mut self, tolerance: &Tolerance);
 
     /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
     /// cannot be put so that a place lies in it.

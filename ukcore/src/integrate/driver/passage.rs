@@ -10,7 +10,7 @@ use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Method, Outcome, Singular};
+use crate::integrate::{Method, Outcome, Singular, Tolerance};
 use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -92,6 +92,8 @@ pub(super) struct Passage {
     before: VecDeque<(Place, Vec<f64>)>,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
+    /// Its relative tolerance, and how many times that of the run the floors of velocities are.
+    eased: [f64; 2],
 }
 
 impl Passage {
@@ -105,8 +107,10 @@ impl Passage {
         self.before.push_back((now, y));
     }
 
-    /// The relative tolerance of the step in hand, in a run with this one.
-    pub(super) fn tolerance(&self, run: f64) -> f64 {
+    /// Makes `tolerance` that of the step in hand, from velocities `v`, in a run with the other one. Whether it has changed. Rounding makes
+    /// as much of small velocities as of the largest, so that is what they count as where it decides.
+    pub(super) fn ease(&mut self, tolerance: &mut Tolerance, run: &Tolerance, v: &[f64]) -> bool {
+        let mut eased = [run.relative, 1.0];
         if let Some(position) = &self.ahead {
             let significance = self.distance * position.rate;
             let noise = if position.gap > 0.0 { TURNING } else { NOISE };
@@ -114,9 +118,21 @@ impl Passage {
                 true => COARSEST,
                 false => (noise / (significance * significance)).min(COARSEST),
             };
-            return least.max(run);
+            let floors = &run.floors[v.len()..];
+            let sizes = v.iter().zip(floors).map(|(v, floor)| v.abs() / floor);
+            let relative = least.max(run.relative);
+            eased = [
+                relative,
+                (sizes.fold(0.0, f64::max) * least / relative).max(1.0),
+            ];
         }
-        run
+        if std::mem::replace(&mut self.eased, eased) == eased {
+            return false;
+        }
+        tolerance.relative = eased[0];
+        let pairs = tolerance.floors.iter_mut().zip(&run.floors).skip(v.len());
+        pairs.for_each(|(floor, run)| *floor = eased[1] * run);
+        true
     }
 }
 
