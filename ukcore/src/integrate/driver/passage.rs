@@ -398,7 +398,14 @@ impl Driver<'_> {
         };
         // Where the run stands: a stage of a step that comes to nothing may be near by chance.
         let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.rate * left < CLOSE;
-        if (found.gap.is_nan() || close) && left > 0.0 {
+        let undecided = found.gap.is_nan() && left > 0.0;
+        if undecided && !made && self.passage.ahead.is_none() && self.passage.plans < PLANS {
+            // So may one of a step that is far too long.
+            self.passage.plans += 1;
+            course.h = 0.5 * trial.h;
+            return Err(Refusal::Unplanned);
+        }
+        if undecided || close && left > 0.0 {
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
