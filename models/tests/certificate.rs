@@ -215,30 +215,25 @@ fn crank_and_rod_of_one_length_near_their_dead_centre() {
 
 #[test]
 fn a_four_bar_nearly_in_line() {
-    let mut random = Random::new(13);
-    let mut seen = Seen::default();
-    for away in approach() {
-        for _ in 0..20 {
-            let mut q = vec![1.0, 0.0, 2.0, 0.0];
-            q.iter_mut()
-                .for_each(|q| *q += 0.7 * away * random.signed());
-            seen.check(&FourBar::default(), &at::<FourBar>(q, &mut random));
-        }
-    }
-    seen.more_than(20, 300);
+    nearly_in_line(&FourBar::default(), &[1.0, 0.0, 2.0, 0.0], 13);
 }
 
 #[test]
 fn a_chain_between_supports_nearly_in_line() {
-    let mut random = Random::new(14);
+    let mut q: Vec<f64> = (1..=7).map(f64::from).collect();
+    q.extend([0.0; 7]);
+    nearly_in_line(&Bridge::default(), &q, 14);
+}
+
+/// Places ever nearer to `line`, where the constraints are dependent.
+fn nearly_in_line<M: Mechanism>(mechanism: &M, line: &[f64], seed: u64) {
+    let mut random = Random::new(seed);
     let mut seen = Seen::default();
     for away in approach() {
         for _ in 0..20 {
-            let mut q: Vec<f64> = (1..=7).map(f64::from).collect();
-            q.extend([0.0; 7]);
-            q.iter_mut()
-                .for_each(|q| *q += 0.7 * away * random.signed());
-            seen.check(&Bridge::default(), &at::<Bridge>(q, &mut random));
+            let q = line.iter().map(|q| q + 0.7 * away * random.signed());
+            let state = at::<M>(q.collect(), &mut random);
+            seen.check(mechanism, &state);
         }
     }
     seen.more_than(20, 300);

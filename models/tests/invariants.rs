@@ -4,10 +4,21 @@ use crate::every::{every_model, every_state, start};
 use models::{KnifeEdge, Model, Pendulum, RigidBody, StartOptions};
 use nalgebra::DVector;
 use tests::{Dense, assert_close, largest};
-use ukcore::Simulation;
+use ukcore::{Prepared, Simulation, State, Trajectory};
 
 /// Relative accuracy of quantities computed once from a state: a solve loses some digits to the condition of the constraints.
 const ROUNDING: f64 = 1e-9;
+
+/// The motion from `start` to `end` at a tolerance of 1e-12.
+fn exactly(mechanism: impl Into<Prepared>, start: State, end: f64) -> Trajectory {
+    let mechanism = mechanism.into();
+    let name = mechanism.spec().name;
+    Simulation::new(mechanism)
+        .start(start)
+        .tolerance(1e-12)
+        .until(end)
+        .unwrap_or_else(|e| panic!("{name}: {}", e.error))
+}
 
 #[test]
 fn energy_is_conserved() {
@@ -17,11 +28,7 @@ fn energy_is_conserved() {
         if !spec.structure.conservative {
             return;
         }
-        let run = Simulation::new(mechanism)
-            .start(start(model))
-            .tolerance(1e-12)
-            .until(model.duration())
-            .unwrap_or_else(|e| panic!("{}: {}", model.id, e.error));
+        let run = exactly(mechanism, start(model), model.duration());
         let drift = run.energy_drift();
         assert!(drift < 1e-9, "{}: energy drifts by {drift:e}", model.id);
     });
@@ -130,11 +137,7 @@ fn gauss_principle() {
 fn momentum_of_the_free_body_is_fixed_in_space() {
     let body = RigidBody::default();
     let start = body.default_start().expect("a start");
-    let run = Simulation::new(body)
-        .start(start)
-        .tolerance(1e-12)
-        .until(20.0)
-        .unwrap_or_else(|e| panic!("{}", e.error));
+    let run = exactly(body, start, 20.0);
     let outputs = run.outputs();
     for row in &outputs {
         for k in RigidBody::OUT_MOMENTUM_X..=RigidBody::OUT_MOMENTUM_Z {
@@ -151,11 +154,7 @@ fn momentum_about_a_pivot_without_gravity() {
     };
     let options = StartOptions::new().with("rate", 2.0);
     let start = pendulum.start("released", &options).expect("a start");
-    let run = Simulation::new(pendulum)
-        .start(start)
-        .tolerance(1e-12)
-        .until(10.0)
-        .unwrap_or_else(|e| panic!("{}", e.error));
+    let run = exactly(pendulum, start, 10.0);
     for s in run.samples() {
         assert_close("momentum", s.q[0] * s.v[1] - s.q[1] * s.v[0], 2.0, 1e-10);
     }
@@ -165,11 +164,7 @@ fn momentum_about_a_pivot_without_gravity() {
 fn spin_of_the_knife_edge_is_constant() {
     let knife = KnifeEdge::default();
     let start = knife.default_start().expect("a start");
-    let run = Simulation::new(knife)
-        .start(start)
-        .tolerance(1e-12)
-        .until(10.0)
-        .unwrap_or_else(|e| panic!("{}", e.error));
+    let run = exactly(knife, start, 10.0);
     for s in run.samples() {
         assert_close("spin", s.v[KnifeEdge::TH], 1.0, 1e-13);
     }

@@ -292,97 +292,38 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
     }
 }
 
-ukcore::multibody! {
-    /// 1 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
-    pub One {
-        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
-        bodies {
-            for i in 0..1 {
-                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+/// Double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
+macro_rules! pendulums {
+    ($name:ident, $copies:literal) => {
+        ukcore::multibody! {
+            pub $name {
+                const N: usize = $copies;
+                params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
+                bodies {
+                    for i in 0..N {
+                        planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                        planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
+                    }
+                }
+                gravity { [0, -g] }
+                tree {
+                    for i in 0..N { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
+                }
+                forces {
+                    for i in 0..N {
+                        turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
+                        turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
+                    }
+                }
             }
         }
-        gravity { [0, -g] }
-        tree {
-            for i in 0..1 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
-        }
-        forces {
-            for i in 0..1 {
-                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
-                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
-            }
-        }
-    }
+    };
 }
 
-ukcore::multibody! {
-    /// 2 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
-    pub Two {
-        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
-        bodies {
-            for i in 0..2 {
-                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-            }
-        }
-        gravity { [0, -g] }
-        tree {
-            for i in 0..2 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
-        }
-        forces {
-            for i in 0..2 {
-                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
-                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
-            }
-        }
-    }
-}
-
-ukcore::multibody! {
-    /// 4 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
-    pub Four {
-        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
-        bodies {
-            for i in 0..4 {
-                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-            }
-        }
-        gravity { [0, -g] }
-        tree {
-            for i in 0..4 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
-        }
-        forces {
-            for i in 0..4 {
-                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
-                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
-            }
-        }
-    }
-}
-
-ukcore::multibody! {
-    /// 8 double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
-    pub Eight {
-        params { m = 0.02 [kg], l = 0.045 [m], k = 0.05 [N m], c = 0.001 [N m s], g = 9.81 [m/s^2] }
-        bodies {
-            for i in 0..8 {
-                planar a[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-                planar b[i] { mass: m, inertia: m * sq(l) / 12, centre: [l / 2, 0] }
-            }
-        }
-        gravity { [0, -g] }
-        tree {
-            for i in 0..8 { root[i]: pin(ground.at([0, 0]), a[i].at([0, 0])) knee[i]: pin(a[i].at([l, 0]), b[i].at([0, 0])) }
-        }
-        forces {
-            for i in 0..8 {
-                turning_spring(ground, a[i], k, 1.0) turning_damper(ground, a[i], c)
-                turning_spring(a[i], b[i], k, 0.1) turning_damper(a[i], b[i], c)
-            }
-        }
-    }
-}
+pendulums!(One, 1);
+pendulums!(Two, 2);
+pendulums!(Four, 4);
+pendulums!(Eight, 8);
 
 /// The modes of `copies` of a mechanism are those of one, each so often, and in each of these another copy moves alone.
 fn modes_of_one(mechanism: &impl Mechanism, one: &[Mode], copies: usize) {

@@ -50,9 +50,7 @@ pub fn assemble_with_alternatives(
     guess: &State,
     hold: &[&str],
 ) -> Result<Assembled, Error> {
-    let mech: Prepared = mechanism.into();
-    let held = Held::both(held(mech.spec(), hold)?);
-    near(&mech, guess, &held, Look::AtParts)
+    looked(mechanism.into(), guess, hold, Look::AtParts)
 }
 
 /// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved
@@ -67,9 +65,7 @@ pub fn branches(
     guess: &State,
     hold: &[&str],
 ) -> Result<Assembled, Error> {
-    let mech: Prepared = mechanism.into();
-    let held = Held::both(held(mech.spec(), hold)?);
-    near(&mech, guess, &held, Look::Everywhere)
+    looked(mechanism.into(), guess, hold, Look::Everywhere)
 }
 
 impl Prepared {
@@ -104,6 +100,12 @@ enum Look {
     AtParts,
     /// All around the guess, too, where coordinates stay free.
     Everywhere,
+}
+
+/// The ways near a guess, with the coordinates `hold` held.
+fn looked(mech: Prepared, guess: &State, hold: &[&str], look: Look) -> Result<Assembled, Error> {
+    let held = Held::both(held(mech.spec(), hold)?);
+    near(&mech, guess, &held, look)
 }
 
 /// The ways near a guess, with coordinates held by their positions.

@@ -11,6 +11,8 @@ use std::collections::BTreeSet;
 
 /// Higher powers are left to repeated squaring.
 const POWER: i32 = 3;
+/// Of the factors of one product that others have, too, so many are looked at: the pairs are as many as the square of that.
+const MOST: usize = 64;
 
 /// What a product is made of.
 #[derive(Clone, Copy, PartialEq)]
@@ -23,8 +25,10 @@ enum Factor {
 /// A product above its fraction bar.
 struct Product {
     at: Id,
-    /// Its factors, each as often as it occurs, in ascending order; those that are not looked at are left out.
+    /// Its factors, each as often as it occurs, in ascending order.
     factors: Vec<usize>,
+    /// Those that are not looked at: no other product has them, or they divide.
+    others: Vec<(Id, i32)>,
 }
 
 /// Takes common factors out of what `roots` are made of. Returns the new nodes of those that change: none where the longest chain of
@@ -63,27 +67,41 @@ struct Sharing {
 impl Sharing {
     fn new(order: &[Id], g: &Graph) -> Self {
         let mut sharing = Sharing::default();
-        let mut places: Map<(Id, i32), usize> = Map::default();
         let reciprocals = reciprocals(g, order);
-        let taken = |(f, e): &&(Id, i32)| looked_at(*f, *e, &reciprocals);
-        for id in order {
-            let Node::Product(factors) = g.node(*id) else {
-                continue;
-            };
-            let mut found = Vec::new();
-            for (factor, e) in factors.iter().filter(taken) {
-                let next = sharing.known.len();
-                let place = *places.entry((*factor, e.signum())).or_insert(next);
-                if place == next {
-                    sharing.known.push(Factor::Given(*factor, e.signum()));
-                }
-                found.extend((0..e.abs()).map(|_| place));
+        let taken = |(f, e): &(Id, i32)| looked_at(*f, *e, &reciprocals);
+        let products = order.iter().filter_map(|id| match g.node(*id) {
+            Node::Product(factors) => Some((*id, factors)),
+            _ => None,
+        });
+        // In how many products each is.
+        let mut counts: Map<(Id, i32), usize> = Map::default();
+        for factor in products.clone().flat_map(|(_, factors)| factors) {
+            if taken(factor) {
+                *counts.entry(unit(*factor)).or_default() += 1;
             }
-            found.sort_unstable();
-            if found.len() > 1 {
+        }
+        let mut places: Map<(Id, i32), usize> = Map::default();
+        for (at, all) in products {
+            let (mut factors, mut others) = (Vec::new(), Vec::new());
+            for factor in all {
+                let one = unit(*factor);
+                if !taken(factor) || counts[&one] < 2 || factors.len() >= MOST {
+                    others.push(*factor);
+                    continue;
+                }
+                let next = sharing.known.len();
+                let place = *places.entry(one).or_insert(next);
+                if place == next {
+                    sharing.known.push(Factor::Given(one.0, one.1));
+                }
+                factors.extend((0..factor.1.abs()).map(|_| place));
+            }
+            factors.sort_unstable();
+            if factors.len() > 1 {
                 sharing.products.push(Product {
-                    at: *id,
-                    factors: found,
+                    at,
+                    factors,
+                    others,
                 });
             }
         }
@@ -138,7 +156,6 @@ impl Sharing {
     /// New nodes of what changes.
     fn rewritten(&self, order: &[Id], g: &mut Graph) -> Map<Id, Id> {
         let mut new: Map<Id, Id> = Map::default();
-        let reciprocals = reciprocals(g, order);
         let changed = |product: &&Product| {
             let both = |k: &usize| matches!(self.known[*k], Factor::Both(..));
             product.factors.iter().any(both)
@@ -154,12 +171,9 @@ impl Sharing {
             let of = |id: Id, new: &Map<Id, Id>| new.get(&id).copied().unwrap_or(id);
             let now = match products.get(id) {
                 Some(product) => {
-                    let mut factors: Vec<(Id, i32)> = Vec::new();
-                    for (factor, e) in g.factors(*id) {
-                        if !looked_at(factor, e, &reciprocals) {
-                            factors.push((of(factor, &new), e));
-                        }
-                    }
+                    let others = product.others.iter();
+                    let mut factors: Vec<(Id, i32)> =
+                        others.map(|(factor, e)| (of(*factor, &new), *e)).collect();
                     for k in &product.factors {
                         factors.push(self.value(*k, &new, &mut values, g));
                     }
@@ -204,6 +218,11 @@ impl Sharing {
 /// Whether a power is a factor that may be shared: a division is where others divide by the same.
 fn looked_at(base: Id, exponent: i32, reciprocals: &Set<Id>) -> bool {
     (1..=POWER).contains(&exponent) || exponent == -1 && reciprocals.contains(&base)
+}
+
+/// The factor, once.
+fn unit((factor, exponent): (Id, i32)) -> (Id, i32) {
+    (factor, exponent.signum())
 }
 
 /// The different pairs of factors, which are in ascending order.
