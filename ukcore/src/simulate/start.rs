@@ -18,9 +18,6 @@ use crate::trajectory::{Trajectory, Work};
 const INTERPOLATED: f64 = 100.0;
 const RATTLE: f64 = 1e-5;
 
-/// No less than this share of the size of a start is asked for in any coordinate.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
-
 impl Simulation {
     /// What takes the records of a run to `t_end`, the consistent start, and what a method is to be told.
     pub(super) fn admit<'s>(
@@ -108,13 +105,8 @@ impl Simulation {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
             size = size.max(projector.length(t, &new_q, &v));
         }
-        // Rounding of the largest coordinates is in all; a start at zero in all of them has no size.
-        let least = size.min(ROUNDING * size / self.tolerance);
-        let size = if size > 0.0 {
-            size.min(most).max(least)
-        } else {
-            most
-        };
+        // A start at zero in all coordinates has no size.
+        let size = if size > 0.0 { size.min(most) } else { most };
         let speed = self.speed(size, &measure, [&new_q, &v], t_end - t);
         let tolerance = self.tolerance_of([size, speed], &measure);
         let of_q = &tolerance.floors[..q.len()];
