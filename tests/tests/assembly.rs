@@ -116,6 +116,16 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A bead on a wave along x, and on a ramp.
+    Wave {
+        params { l = 1.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        holonomic { wave: y = l * sin(x / l), ramp: y = 0.2 * x + 0.5 * l }
+    }
+}
+
 /// A mechanism with a state that satisfies its constraints, and what its coordinates and velocities are measured by.
 struct Known<M> {
     mechanism: M,
@@ -541,6 +551,40 @@ fn random_mechanisms_with_zeros() {
     for found in hunt(0..24) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
         assert!(found.assembled > 40, "{found:?}");
+    }
+}
+
+/// Lengths in the argument of a sine are no angles, for which a turn is far whatever it is measured in.
+#[test]
+fn a_wave_is_met_next_to_the_guess_in_every_unit_of_length() {
+    // 0.2 u + 0.5 = sin u, next to 0.5 and to 2.
+    let exact = |mut u: f64| {
+        for _ in 0..40 {
+            u -= (u.sin() - 0.2 * u - 0.5) / (u.cos() - 0.2);
+        }
+        u
+    };
+    for from in [0.5, 2.0] {
+        let u = exact(from);
+        for l in [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9] {
+            let guess = State {
+                t: 0.0,
+                q: vec![from * l, 0.0],
+                v: vec![0.0; 2],
+            };
+            let found = assemble(Wave { l }, &guess, &[]);
+            let found = found.unwrap_or_else(|e| panic!("l = {l:e} from {from}: {e}"));
+            let off = found.q[0] / l - u;
+            assert!(off.abs() < 1e-12, "l = {l:e} from {from}: off by {off:e}");
+        }
+    }
+}
+
+/// Guesses that the hunt has found: all at zero, beside coordinates in units that are orders apart, two of them in sines.
+#[test]
+fn what_the_hunt_has_found() {
+    for found in hunt(1_000_078..1_000_079) {
+        assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
     }
 }
 

@@ -313,6 +313,10 @@ fn motions_that_the_hunt_has_found_turn_with_their_branch() {
         outcomes.case(kind, CHAINS[chain], e, w, Method::Dop853, 1e-3);
     }
     assert!(outcomes.wrong.is_empty(), "{outcomes:#?}");
+    // A stage of a step that is far too long is by chance where nobody can tell how the motion goes on.
+    let mut outcomes = Outcomes::default();
+    outcomes.case(4, CHAINS[1], 1e-3, 5.3708, Method::Dop853, 1e-3);
+    assert_eq!(outcomes.turned, 1, "{outcomes:#?}");
 }
 
 /// Where one of two chains crosses its branches and the other one turns just beside, this may not be told, but then it is said.

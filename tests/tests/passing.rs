@@ -150,6 +150,10 @@ fn what_the_hunt_has_found() {
         (4, 2.854832, 1e-12),
         (5, 5.710832, 1e-9),
         (7, 7.361800000000001, 1e-11),
+        // A stage of the interpolant just on the position; stages that are not near it, but suffer from it.
+        (9, 3.31236, 1e-9),
+        (8, 4.11236, 1e-12),
+        (9, 5.69236, 1e-12),
     ] {
         outcomes.case(number, rate, Method::Dop853, tolerance, 10.0);
     }

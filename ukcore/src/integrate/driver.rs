@@ -419,10 +419,16 @@ impl Driver<'_> {
             || equations.course.covers(trial, next)
             || equations.course.is_beyond(trial)
             || self.passage.retreated.is_some();
-        if wanted && !interpolated {
-            let stages = self.scheme.interpolate(equations, trial);
+        if wanted {
+            let stages = match interpolated {
+                true => Ok(()),
+                false => self.scheme.interpolate(equations, trial),
+            };
+            self.survey_interpolant(trial)?;
             stages.map_err(Refusal::End)?;
         }
+        let equations = &mut self.equations;
+        let known = self.shown.as_ref().map(|(t, y)| Sample::of(*t, y));
         if wanted {
             self.scheme.scale_error(error);
         }

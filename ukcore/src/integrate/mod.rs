@@ -167,8 +167,8 @@ pub(crate) trait Problem {
         None
     }
     /// The singular position that the states evaluated since the last call came near, if they did; else one near `stands`.
-    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
-        let _ = stands;
+    fn singular(&mut self, purpose: Purpose, stands: Option<Sample<'_>>) -> Option<Singular> {
+        let _ = (purpose, stands);
         None
     }
     /// The singular position where a constraint loses its row of A by itself, within the step from `old` to `new`, or near `old` where
@@ -198,6 +198,17 @@ pub(crate) trait Problem {
     /// Called after each step that is good, with the error of what the problem makes of it, in terms of what is allowed. After an error, or
     /// one above 1, nothing of this call may be kept: the step is tried again, shorter.
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error>;
+}
+
+/// What states have been evaluated for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// A step that was made.
+    Step,
+    /// One that came to nothing, be it for what a position makes of stages that are not even near it.
+    Attempt,
+    /// The interpolant of a step, which had been looked at before.
+    Interpolant,
 }
 
 /// A position ahead of a motion, or behind it, where constraints come to imply the others.

@@ -28,7 +28,7 @@ const TOGETHER: f64 = 2.0;
 const TRIES: usize = 4;
 
 /// Rows that keep this share of themselves are not implied by others at any place near by.
-const CLEAR: f64 = 4.0 * RANK_CEILING;
+pub(super) const CLEAR: f64 = 4.0 * RANK_CEILING;
 
 /// Significance of a row beside a reversed combination below which steps are short enough to tell what becomes of the motion.
 const UNTOLD: f64 = 1e-5;

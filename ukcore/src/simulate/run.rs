@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::crossing;
+use super::crossing::{self, CLEAR};
 use super::energy::EnergyWatch;
 use super::obstacles;
 use super::record::Recorder;
@@ -10,7 +10,7 @@ use super::vanishing::RowWatch;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Method, Next, Outcome, Problem, Settings, Singular, Step};
+use crate::integrate::{Method, Next, Outcome, Problem, Purpose, Settings, Singular, Step};
 use crate::linearise::Columns;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
@@ -161,14 +161,24 @@ impl Problem for Run<'_> {
         obstacles::jump(&mut self.solver, at, t_old)
     }
 
-    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
-        self.weakest = self.solver.take_weakest();
-        let nearest = self.nearest.take().filter(|_| self.weakest <= RANK_CEILING);
+    fn singular(&mut self, purpose: Purpose, stands: Option<Sample<'_>>) -> Option<Singular> {
+        let weakest = self.solver.take_weakest();
+        self.weakest = match purpose {
+            Purpose::Interpolant => self.weakest.min(weakest),
+            _ => weakest,
+        };
+        let ceiling = match purpose {
+            Purpose::Attempt if stands.is_none() => CLEAR,
+            _ => RANK_CEILING,
+        };
+        let nearest = self.nearest.take().filter(|_| weakest <= ceiling);
         let near = nearest.or_else(|| stands.map(Sample::to_state))?;
         let found = crossing::find(self.solver.mechanism(), &near, None);
         // A motion that turns before it gets there is no less hard on steps that come to nothing.
-        let beside = stands.is_some() && self.weakest <= RANK_CEILING;
-        found.or_else(|| beside.then(|| Singular::beside(near.t, self.weakest)))
+        let beside = stands.is_some() && weakest <= RANK_CEILING;
+        let found = found.or_else(|| beside.then(|| Singular::beside(near.t, weakest)));
+        // From so far off only what is passed matters.
+        found.filter(|found| weakest <= RANK_CEILING || stands.is_some() || found.gap == 0.0)
     }
 
     fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {

@@ -21,7 +21,8 @@ pub struct Structure {
     pub jacobian_fixed: &'static [(usize, usize)],
     /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
     pub massless: &'static [usize],
-    /// Coordinates that are angles: those in the argument of a sine, cosine or tangent of M, Q, c, A or b.
+    /// Coordinates that are angles: those in the argument of a sine, cosine or tangent of M, Q, c, A or b, with no unit but rad where units
+    /// are declared, else with no factor there but numbers.
     pub angles: &'static [usize],
     /// No explicit time anywhere.
     pub scleronomic: bool,

@@ -74,7 +74,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let coordinates = model.coord_elements.iter().map(|c| c.name.clone());
     let constraints = system.constraints.iter().map(|c| c.item.text());
     let names: Vec<String> = coordinates.chain(constraints).collect();
-    let structure = structure::structure(system, &dynamics);
+    let structure = structure::structure(system, &dynamics, model);
     let (mut held, switches) = switches::hold(system, &dynamics, &names);
     let mut regular = regular::regular(system, &held);
     // The listing shows reactions by their names.

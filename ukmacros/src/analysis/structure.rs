@@ -2,7 +2,9 @@
 
 use super::dynamics::Dynamics;
 use crate::expr::{Func, Gradient, Graph, Id, Kind, Node, Symbol, System};
+use crate::model::Model;
 use std::collections::{BTreeSet, HashSet};
+use ukunits::Unit;
 
 /// Facts known at compile time.
 pub(crate) struct Structure {
@@ -12,7 +14,7 @@ pub(crate) struct Structure {
     /// Entries of A that depend on parameters alone.
     pub(crate) jacobian_fixed: Vec<(usize, usize)>,
     pub(crate) massless: Vec<usize>,
-    /// Coordinates in the argument of a sine, cosine or tangent of the equations.
+    /// Coordinates that are angles: in the argument of a sine, cosine or tangent of the equations.
     pub(crate) angles: Vec<usize>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
@@ -26,7 +28,7 @@ pub(crate) struct Structure {
 }
 
 /// Collects the facts.
-pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
+pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model) -> Structure {
     let n = dynamics.force.len();
     let homogeneous = homogeneous(system);
     let quadratic = match (system.kinetic, &dynamics.lift) {
@@ -59,7 +61,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         jacobian_constant,
         jacobian_fixed,
         massless,
-        angles: angles(dynamics, g),
+        angles: angles(dynamics, g, model),
         scleronomic,
         nonideal,
         loaded,
@@ -73,8 +75,9 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
 }
 
 /// Coordinates in the argument of a sine, cosine or tangent of M, Q, c, A or b, unless within a function there that is no angle's: of
-/// sin(asin(x)) and cos(atan2(y, x)) none is an angle.
-fn angles(d: &Dynamics, g: &Graph) -> Vec<usize> {
+/// sin(asin(x)) and cos(atan2(y, x)) none is an angle. Where units are declared these tell; where they are not a coordinate is an angle if
+/// the argument changes by a number times as much: x in sin(k x) is a length if k is one over a length.
+fn angles(d: &Dynamics, g: &Graph, model: &Model) -> Vec<usize> {
     let matrices = d.mass.values().chain(d.jacobian.values());
     let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
     let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
@@ -92,9 +95,13 @@ fn angles(d: &Dynamics, g: &Graph) -> Vec<usize> {
             Node::Symbol(Symbol::Coord(i)) => drop(angles.insert(i)),
             Node::Call(Func::Abs | Func::Min | Func::Max, _) => stack.extend(g.operands(id)),
             Node::Call(..) => {}
+            Node::Product(_) if !model.units => {}
             _ => stack.extend(g.operands(id)),
         }
     }
+    let units: Vec<_> = model.coord_elements.iter().map(|c| &c.unit).collect();
+    let turns = |unit: &Unit| matches!(unit.si().as_str(), "" | "rad");
+    angles.retain(|i| !model.units || units[*i].as_ref().is_none_or(turns));
     angles.into_iter().collect()
 }
 

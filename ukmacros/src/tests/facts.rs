@@ -19,7 +19,9 @@ fn angles_are_what_sines_are_taken_of() {
         ("force { x: tan(-2.0 * th) }", &["th"]),
         ("let s = x + y; force { x: sin(s) }", &["x", "y"]),
         ("let f = |u| cos(u); force { x: f(th) }", &["th"]),
-        ("force { x: sin(w * (t + th)) }", &["th"]),
+        // A length, if w is one over a length.
+        ("force { x: sin(w * (t + x)) + cos(y / k) }", &[]),
+        ("force { x: sin(2.0 * (w * t + th)) }", &["th"]),
         ("force { x: sin(w * t + k) * th }", &[]),
         ("force { x: sin(dot(th)) }", &[]),
         ("force { x: asin(0.1 * x) + atan(th) + sinh(y) }", &[]),
@@ -31,14 +33,24 @@ fn angles_are_what_sines_are_taken_of() {
         ("force { x: -atan(x) }", &[]),
         (
             "let s = x + 2.0 * y - w * th + k + t; force { y: sin(s) }",
-            &["x", "y", "th"],
+            &["x", "y"],
         ),
         ("force { x: sin(th + k) }", &["th"]),
+        ("force { x: sin(w * x) + sin(x) }", &["x"]),
         // An output turns nothing.
         ("output { o = sin(x) }", &[]),
     ] {
         assert_eq!(angles(sections), expected, "{sections}");
     }
+}
+
+/// Where units are declared these tell, whatever the factor is: a wave along x, gears.
+#[test]
+fn angles_are_what_units_say() {
+    let source = "pub T { params { k = 2.0 [1/m], ratio = 3.0 } coords { x [m], th [rad], u } mass { x: 1.0 [kg], th: 1.0 [kg m^2], u: 1.0 [kg m^2] }
+        force { x: 1.0 [N] * sin(k * x), th: 1.0 [N m] * sin(ratio * th), u: 1.0 [N m] * cos(u) } }";
+    let analysis = analysis(source.parse().expect("tokens"));
+    assert_eq!(analysis.structure.angles, [1, 2]);
 }
 
 #[test]

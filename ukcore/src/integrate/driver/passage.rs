@@ -10,7 +10,7 @@ use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Method, Outcome, Singular, Tolerance};
+use crate::integrate::{Method, Outcome, Purpose, Singular, Tolerance};
 use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -353,14 +353,37 @@ impl Driver<'_> {
         if self.passage.passing && !made && !self.passage.faint {
             (self.passage.faint, self.passage.untried) = (true, true);
         }
-        let found = problem.singular((!made && gap.is_none()).then_some(here));
+        let purpose = if made {
+            Purpose::Step
+        } else {
+            Purpose::Attempt
+        };
+        let found = problem.singular(purpose, (!made && gap.is_none()).then_some(here));
         let end = Sample::of(trial.end.t, self.scheme.end());
         let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
-        let Some(mut found) = found else {
-            let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
-            self.passage.ahead.take_if(behind);
+        match found {
+            Some(found) => self.judge(found, trial, made),
+            None => {
+                let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
+                self.passage.ahead.take_if(behind);
+                Ok(())
+            }
+        }
+    }
+
+    /// The same of what the interpolant of the step has met: its stages lie elsewhere.
+    pub(super) fn survey_interpolant(&mut self, trial: Trial) -> Result<(), Refusal> {
+        if self.gap.is_none() {
             return Ok(());
-        };
+        }
+        let found = (self.equations.problem).singular(Purpose::Interpolant, None);
+        found.map_or(Ok(()), |found| self.judge(found, trial, true))
+    }
+
+    /// Refuses a step that is not planned for the position `found`.
+    fn judge(&mut self, mut found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
+        let course = &mut self.equations.course;
+        let here = Sample::of(course.now.t, self.scheme.start());
         if let Some(known) = &self.passage.ahead
             && (known.gap, found.gap) == (0.0, 0.0)
             && known.significance < found.significance
@@ -369,13 +392,20 @@ impl Driver<'_> {
             found.t = known.t;
         }
         let left = course.ahead(found.t);
-        let Some([from, to]) = gap else {
+        let Some([from, to]) = self.gap else {
             self.passage.ahead = Some(found);
             return Err(Refusal::Unplanned);
         };
         // Where the run stands: a stage of a step that comes to nothing may be near by chance.
         let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.rate * left < CLOSE;
-        if (found.gap.is_nan() || close) && left > 0.0 {
+        let undecided = found.gap.is_nan() && left > 0.0;
+        if undecided && !made && self.passage.ahead.is_none() && self.passage.plans < PLANS {
+            // So may one of a step that is far too long.
+            self.passage.plans += 1;
+            course.h = 0.5 * trial.h;
+            return Err(Refusal::Unplanned);
+        }
+        if undecided || close && left > 0.0 {
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
