@@ -60,29 +60,38 @@ struct Best {
     /// 1/‖row‖, 1 for a row of zeros.
     scale: Vec<f64>,
     residual: DVector<f64>,
+    /// Jᵀ, so that the products of rows are those of numbers that stand beside each other.
     matrix: DMatrix<f64>,
+    /// J Jᵀ on and below its diagonal: for all dampings the same.
+    normal: DMatrix<f64>,
 }
 
 impl Best {
     /// The place `x`, where residuals and A are known.
     fn new(newton: &Newton<f64>, Part { rows, unknowns, .. }: &Part, x: &[f64]) -> Self {
         let (m, ease) = (newton.residual.len(), &newton.acceptance.ease);
-        let mut matrix = DMatrix::from_fn(rows.len(), unknowns.len(), |c, j| {
+        let mut matrix = DMatrix::from_fn(unknowns.len(), rows.len(), |j, c| {
             newton.jacobian[unknowns[j] * m + rows[c]] * ease[unknowns[j]]
         });
-        let norm = |c: usize| match matrix.row(c).norm() {
+        let norm = |c: usize| match matrix.column(c).norm() {
             norm if norm > 0.0 => norm.recip(),
             _ => 1.0,
         };
         let scale: Vec<f64> = (0..rows.len()).map(norm).collect();
-        for (mut row, scale) in matrix.row_iter_mut().zip(&scale) {
+        for (mut row, scale) in matrix.column_iter_mut().zip(&scale) {
             row.scale_mut(*scale);
         }
+        let product = |c, d| match c >= d {
+            true => matrix.column(c).dot(&matrix.column(d)),
+            false => 0.0,
+        };
+        let normal = DMatrix::from_fn(rows.len(), rows.len(), product);
         Best {
             x: x.to_vec(),
             residual: DVector::from_fn(rows.len(), |c, _| newton.residual[rows[c]] * scale[c]),
             scale,
             matrix,
+            normal,
         }
     }
 
@@ -94,11 +103,11 @@ impl Best {
 
     /// d that minimises |J d + φ|² + μ|d|²: Jᵀ (J Jᵀ + μ)⁻¹ (−φ). What is below rounding of J Jᵀ does not count in μ.
     fn step(&self, mu: f64) -> Option<DVector<f64>> {
-        let mut normal = &self.matrix * self.matrix.transpose();
+        let mut normal = self.normal.clone();
         let mu = mu.max(ROUNDING * normal.nrows() as f64);
         (0..normal.nrows()).for_each(|c| normal[(c, c)] += mu);
         let multipliers = normal.cholesky()?.solve(&self.residual);
-        Some(-self.matrix.tr_mul(&multipliers))
+        Some(-(&self.matrix * multipliers))
     }
 }
 
