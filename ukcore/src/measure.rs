@@ -22,6 +22,9 @@ const BEND: f64 = 1e-6;
 /// A rod that is shorter than this share of a state, known to no more than three digits there, is none.
 const LEAST: f64 = 1e3 * f64::EPSILON;
 
+/// The shortest rod counts for no less than this share of the longest: much below, what is asked of it is rounding of the others.
+const SHORT: f64 = 1e-3;
+
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub(crate) struct Measure {
@@ -140,7 +143,7 @@ impl Measure {
 
     /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
     /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
-    /// length of the shortest rod. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or
+    /// length of the shortest rod, but no less than [`SHORT`] of the longest. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or
     /// there are none.
     pub(crate) fn reach(
         &self,
@@ -188,7 +191,11 @@ impl Measure {
         });
         // What is more is that of a row that rounding alone has changed; what is less, of one that vanishes here.
         let bent = reaches.filter(|reach| *reach > LEAST * size && *reach < size / BEND);
-        bent.min_by(f64::total_cmp)
+        let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
+        for reach in bent {
+            (shortest, longest) = (shortest.min(reach), longest.max(reach));
+        }
+        (longest > 0.0).then(|| shortest.max(SHORT * longest))
     }
 
     /// Measures the columns of A.
