@@ -143,8 +143,8 @@ impl Measure {
 
     /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
     /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
-    /// length of the shortest rod, but no less than [`SHORT`] of the longest. `size` is that of a state, more than 0 if it tells anything. `None` where constraints are linear, or
-    /// there are none.
+    /// length of the shortest rod, but no less than [`SHORT`] of the longest. `size` is that of a state, more than 0 if it tells anything.
+    /// `None` where constraints are linear, or there are none.
     pub(crate) fn reach(
         &self,
         mech: &Prepared,
