@@ -1,8 +1,6 @@
 //! A double pendulum in Cartesian coordinates.
 
 use crate::{Model, Reference, reference};
-use serde_json::Value;
-use ukcore::State;
 
 ukcore::multibody! {
     /// Double pendulum in Cartesian coordinates (chaotic).
@@ -65,48 +63,22 @@ impl Model for DoublePendulum {
     const ID: &'static str = "double_pendulum";
 
     fn references() -> Vec<Reference> {
-        known(|t, point| State {
-            t,
-            q: reference::numbers(&point["q"]),
-            v: reference::numbers(&point["v"]),
-        })
+        known("states")
     }
 }
 
-/// The motion up to 10 s as `state` reads it from a time and an entry of the data; later on, errors grow too large to compare.
-pub(crate) fn known(state: impl Fn(f64, &Value) -> State) -> Vec<Reference> {
-    let data = reference::data(include_str!("../data/double_pendulum.json"));
-    let points = data["reference"].as_array();
-    let states = points.map_or_else(Vec::new, |points| {
-        let read = |point: &Value| state(reference::number(&point["t"]), point);
-        points.iter().map(read).collect()
-    });
+/// The motion up to 10 s, from the list `list` of the data; later on, errors grow too large to compare.
+pub(crate) fn known(list: &str) -> Vec<Reference> {
     let whole = Reference {
         source: "integration with 40 digits in two formulations",
         // What an `f64` holds of speeds of some 10 m/s.
         error: 2e-15,
-        states,
+        states: reference::states(include_str!("../data/double_pendulum.json"), list),
     };
     vec![whole.up_to(DoublePendulum::duration())]
 }
 
 impl DoublePendulum {
-    /// Positions (x1, y1, x2, y2), m, and velocities, m/s, for the rods' angles from the downward vertical, rad, and rates, rad/s.
-    #[must_use]
-    pub fn at_angles(&self, angles: [f64; 2], rates: [f64; 2]) -> ([f64; 4], [f64; 4]) {
-        let rod = |length: f64, angle: f64, rate: f64| {
-            let (sin, cos) = angle.sin_cos();
-            let speed = length * rate;
-            ([length * sin, -length * cos], [speed * cos, speed * sin])
-        };
-        let (p, vp) = rod(self.l1, angles[0], rates[0]);
-        let (r, vr) = rod(self.l2, angles[1], rates[1]);
-        (
-            [p[0], p[1], p[0] + r[0], p[1] + r[1]],
-            [vp[0], vp[1], vp[0] + vr[0], vp[1] + vr[1]],
-        )
-    }
-
     /// Angular frequencies of the two small oscillations about the rest position, slow one first, rad/s.
     ///
     /// Roots of m1 l1 l2 ω⁴ − (m1 + m2) g (l1 + l2) ω² + (m1 + m2) g² = 0 (Landau & Lifshitz, Mechanics, §23, problem 2).

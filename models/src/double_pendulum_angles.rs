@@ -1,7 +1,7 @@
 //! The double pendulum in angles: no constraints, M from the kinetic energy.
 
-use crate::double_pendulum::{self, DoublePendulum};
-use crate::{Model, Reference, reference};
+use crate::double_pendulum;
+use crate::{Model, Reference};
 
 ukcore::multibody! {
     /// Double pendulum in angles, by its kinetic energy (equals double_pendulum).
@@ -69,24 +69,6 @@ impl Model for DoublePendulumAngles {
     const ID: &'static str = "double_pendulum_angles";
 
     fn references() -> Vec<Reference> {
-        double_pendulum::known(|t, point| {
-            let angles = reference::numbers(&point["angles"]);
-            let (q, v) = angles.split_at(angles.len() / 2);
-            reference::placed::<Self>(t, 0.., q, v)
-        })
-    }
-}
-
-impl DoublePendulumAngles {
-    /// The double pendulum with these parameters in Cartesian coordinates.
-    #[must_use]
-    pub fn cartesian(&self) -> DoublePendulum {
-        DoublePendulum {
-            m1: self.m1,
-            m2: self.m2,
-            l1: self.l1,
-            l2: self.l2,
-            g: self.g,
-        }
+        double_pendulum::known("angles")
     }
 }

@@ -1,9 +1,7 @@
 //! The two-joint carangiform fish robot of Zhao, Zhen & Chen 2013, §6-10.
 
 use crate::{Model, Reference, reference};
-use serde_json::Value;
 use std::f64::consts::PI;
-use ukcore::State;
 
 ukcore::multibody! {
     /// Two-joint carangiform fish robot (Zhao, Zhen & Chen 2013, case 2).
@@ -120,67 +118,15 @@ impl Model for FishRobot {
     const ID: &'static str = "fish";
 
     fn references() -> Vec<Reference> {
-        let data = reference::data(include_str!("../data/fish.json"));
-        let fish = FishRobot::default();
-        let states = data["states"].as_object().map_or_else(Vec::new, |states| {
-            let read = |(time, state): (&String, &Value)| {
-                let t = time.parse().unwrap_or(f64::NAN);
-                let [x, y, angle, vx, vy, spin] = reference::numbers(state)[..] else {
-                    return fish.follow(t, [f64::NAN; 3], [f64::NAN; 3]);
-                };
-                fish.follow(t, [x, y, angle], [vx, vy, spin])
-            };
-            states.iter().map(read).collect()
-        });
         vec![Reference {
             source: "integration in three coordinates, order 8, started anew at each change of sign of a velocity with drag",
             error: 3e-12,
-            states,
+            states: reference::states(include_str!("../data/fish.json"), "states"),
         }]
     }
 }
 
 impl FishRobot {
-    /// Angles of peduncle and fin at time `t`, rad, and their rates, rad/s (eq. 48): ([θ2, θ3], [θ̇2, θ̇3]).
-    #[must_use]
-    pub fn gait(&self, t: f64) -> ([f64; 2], [f64; 2]) {
-        let (sin2, cos2) = (self.w * t).sin_cos();
-        let (sin3, cos3) = (self.w * t - self.phi).sin_cos();
-        (
-            [self.a2 * sin2, self.a3 * sin3],
-            [self.a2 * self.w * cos2, self.a3 * self.w * cos3],
-        )
-    }
-
-    /// The consistent state at time `t` whose body has the position `body` = (x1, y1, θ1), m and rad, and the velocity `rate`: peduncle
-    /// and fin follow from the gait and the joints (eqs. 40, 41, 44, 45, 48).
-    #[must_use]
-    pub fn follow(&self, t: f64, body: [f64; 3], rate: [f64; 3]) -> State {
-        let ([th2, th3], [w2, w3]) = self.gait(t);
-        let mut q = Vec::with_capacity(9);
-        let mut v = Vec::with_capacity(9);
-        let [mut x, mut y, mut angle] = body;
-        let [mut vx, mut vy, mut spin] = rate;
-        // Half lengths towards the joint behind the link, and from it to the centre of the next.
-        let behind = [self.a, self.l2 / 2.0];
-        let before = [self.l2 / 2.0, self.b];
-        q.extend(body);
-        v.extend(rate);
-        for (i, (next, next_spin)) in [(th2, w2), (th3, w3)].into_iter().enumerate() {
-            for (length, angle, spin) in [(behind[i], angle, spin), (before[i], next, next_spin)] {
-                let (sin, cos) = angle.sin_cos();
-                x += length * cos;
-                y += length * sin;
-                vx -= length * spin * sin;
-                vy += length * spin * cos;
-            }
-            (angle, spin) = (next, next_spin);
-            q.extend([x, y, angle]);
-            v.extend([vx, vy, spin]);
-        }
-        State { t, q, v }
-    }
-
     /// Drag of the water on a link that moves with `speed`, m/s, across `area`, m² (eq. 29), in N.
     #[must_use]
     pub fn drag(&self, area: f64, speed: f64) -> f64 {

@@ -70,18 +70,6 @@ impl KapitzaPendulum {
         ]
     }
 
-    /// Position, m, and velocity, m/s, of the bob at time `t`, for the angle from the upward vertical, rad, and its rate, rad/s.
-    #[must_use]
-    pub fn at_angle(&self, t: f64, angle: f64, rate: f64) -> ([f64; 2], [f64; 2]) {
-        let [height, velocity, _] = self.pivot(t);
-        let (sin, cos) = angle.sin_cos();
-        let speed = self.l * rate;
-        (
-            [self.l * sin, height + self.l * cos],
-            [speed * cos, velocity - speed * sin],
-        )
-    }
-
     /// Exact angular acceleration, rad/s², in the angle from the upward vertical: θ̈ = (g + s̈(t)) sin θ / l with the pivot at s(t).
     #[must_use]
     pub fn angular_acceleration(&self, t: f64, angle: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Mechanisms declared with [`ukcore::multibody!`]: the two of Zhao, Zhen & Chen 2013 and a small one for each feature.
 //!
 //! Each module holds a declaration and what is known about its motion in closed form. All models are found by name in the
-//! [registry](visit).
+//! [registry](entries).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -33,7 +33,7 @@ pub use kapitza::KapitzaPendulum;
 pub use knife_edge::KnifeEdge;
 pub use massless_spring::MasslessSpring;
 pub use pendulum::Pendulum;
-pub use registry::{Visitor, entries, ids, visit};
+pub use registry::{Visitor, entries, visit};
 pub use rigid_body::RigidBody;
 pub use rough_block::RoughBlock;
 pub use slider_crank::SliderCrank;

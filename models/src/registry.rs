@@ -1,18 +1,15 @@
-//! All models, by name.
+//! All models.
 
 use crate::{
     DoublePendulum, DoublePendulumAngles, DoubleScottRussell, Entry, FishRobot, FourBars,
     KapitzaPendulum, KnifeEdge, MasslessSpring, Model, Pendulum, RigidBody, RoughBlock,
     SliderCrank, SpringPendulum, UChain,
 };
-use ukcore::Error;
 
-/// Something to do with a model whose type is known only by name. (A [`Model`] has generic methods, so there is no `dyn Model`.)
+/// Something to do with each model that needs its type. (A [`Model`] has generic methods, so there is no `dyn Model`.)
 pub trait Visitor {
-    /// What comes out.
-    type Output;
     /// Does it with the model `M`.
-    fn visit<M: Model>(self) -> Self::Output;
+    fn visit<M: Model>(&mut self);
 }
 
 macro_rules! registry {
@@ -23,23 +20,9 @@ macro_rules! registry {
             vec![$(Entry::of::<$model>()),*]
         }
 
-        /// Names of all models.
-        #[must_use]
-        pub fn ids() -> Vec<&'static str> {
-            vec![$(<$model as Model>::ID),*]
-        }
-
-        /// Lets `visitor` visit the model called `id`.
-        ///
-        /// # Errors
-        /// [`Error::UnknownName`] with the nearest name.
-        pub fn visit<V: Visitor>(id: &str, visitor: V) -> Result<V::Output, Error> {
-            $(
-                if id == <$model as Model>::ID {
-                    return Ok(visitor.visit::<$model>());
-                }
-            )*
-            Err(Error::unknown_name("model", id, &mut ids().into_iter()))
+        /// Lets `visitor` visit all models.
+        pub fn visit(visitor: &mut impl Visitor) {
+            $(visitor.visit::<$model>();)*
         }
     };
 }

@@ -62,19 +62,6 @@ ukcore::multibody! {
     }
 }
 
-/// ė = ½ G(e)ᵀ ω, 1/s, for the unit quaternion e and the angular velocity ω in body axes, rad/s.
-#[must_use]
-pub fn quaternion_rate(e: [f64; 4], spin: [f64; 3]) -> [f64; 4] {
-    let [e0, e1, e2, e3] = e;
-    let [w1, w2, w3] = spin;
-    [
-        0.5 * (-e1 * w1 - e2 * w2 - e3 * w3),
-        0.5 * (e0 * w1 - e3 * w2 + e2 * w3),
-        0.5 * (e3 * w1 + e0 * w2 - e1 * w3),
-        0.5 * (-e2 * w1 + e1 * w2 + e0 * w3),
-    ]
-}
-
 impl RigidBody {
     /// Angular velocity in body axes, rad/s, at time `t` after it was `spin`; `None` unless i1 < i2 < i3, and on the
     /// separatrix.

@@ -1,7 +1,6 @@
 //! The falling U-chain of Zhao, Zhen & Chen 2013, §3-5.
 
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
-use serde_json::Value;
 use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
@@ -126,21 +125,11 @@ impl Model for UChain {
 
     /// To 1.5 s, and to 1.6 s: shortly before the tip turns, where errors grow fast.
     fn references() -> Vec<Reference> {
-        let data = reference::data(include_str!("../data/uchain.json"));
-        let states = data["states"].as_object().map_or_else(Vec::new, |states| {
-            let read = |(time, state): (&String, &Value)| {
-                let both = |x, y| [x, y].map(|part| reference::numbers(&state[part])).concat();
-                let t = time.parse().unwrap_or(f64::NAN);
-                let places = UChain::X.into_iter().chain(UChain::Y);
-                reference::placed::<Self>(t, places, &both("x", "y"), &both("vx", "vy"))
-            };
-            states.iter().map(read).collect()
-        });
         let whole = Reference {
             source: "integration in 113-bit arithmetic by two methods",
             // They agree to 1e-26; an `f64` holds 17 digits of speeds of some 20 m/s.
             error: 4e-15,
-            states,
+            states: reference::states(include_str!("../data/uchain.json"), "states"),
         };
         vec![whole.up_to(1.5), whole]
     }

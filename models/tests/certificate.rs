@@ -3,8 +3,8 @@
 //! Distance σ: the smallest singular value of A M^−½, its rows scaled to length 1. The bounds are those of `ukmacros`' elimination:
 //! σ ≥ 1/32 is accepted, and q̈ that is accepted is within (n + m) ε · 1024 of the larger of q̈ and M⁻¹ Q in the mass metric.
 
-use crate::every::{Check, every_model, every_type};
-use models::{Model, SliderCrank, UChain};
+use crate::every::every_model;
+use models::{Model, SliderCrank, UChain, Visitor, visit};
 use nalgebra::{DMatrix, DVector};
 use tests::{Dense, Random, assert_all_close, pseudo_inverse, singular_values};
 use ukcore::solver::Formula;
@@ -308,8 +308,8 @@ fn what_a_solver_remembers_does_not_hide_rank_loss() {
 #[test]
 fn wrong_masses() {
     struct Wrong;
-    impl Check for Wrong {
-        fn check<M: Model>(&self) {
+    impl Visitor for Wrong {
+        fn visit<M: Model>(&mut self) {
             let solve = &M::SPEC.structure.solve;
             let n = M::SPEC.n();
             let state = M::default().default_start().expect("a start");
@@ -362,7 +362,7 @@ fn wrong_masses() {
             }
         }
     }
-    every_type(&Wrong);
+    visit(&mut Wrong);
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! A and b of every model against differences of its constraints, which share nothing with what is differentiated otherwise; patterns of
 //! zeros.
 
-use crate::every::{Check, every_type};
-use models::Model;
+use models::{Model, Visitor, visit};
 use tests::{Dense, Random, assert_close, largest};
 use ukcore::{Mechanism, State};
 
@@ -42,8 +41,8 @@ fn difference(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
 #[test]
 fn jacobian_and_rhs_by_differences() {
     struct Differences;
-    impl Check for Differences {
-        fn check<M: Model>(&self) {
+    impl Visitor for Differences {
+        fn visit<M: Model>(&mut self) {
             random_states::<M>(32, |model, state| {
                 let dense = Dense::of(model, state);
                 let scale = largest(dense.jacobian.iter()).max(1.0);
@@ -94,14 +93,14 @@ fn jacobian_and_rhs_by_differences() {
             });
         }
     }
-    every_type(&Differences);
+    visit(&mut Differences);
 }
 
 #[test]
 fn patterns_hold_all_that_is_not_zero() {
     struct Patterns;
-    impl Check for Patterns {
-        fn check<M: Model>(&self) {
+    impl Visitor for Patterns {
+        fn visit<M: Model>(&mut self) {
             random_states::<M>(35, |model, state| {
                 let dense = Dense::of(model, state);
                 let structure = &M::SPEC.structure;
@@ -140,5 +139,5 @@ fn patterns_hold_all_that_is_not_zero() {
             });
         }
     }
-    every_type(&Patterns);
+    visit(&mut Patterns);
 }

@@ -1,7 +1,6 @@
 //! Ensembles against runs one by one, and against themselves in other company.
 
-use crate::every::{Check, every_type};
-use models::{Model, Pendulum, UChain};
+use models::{Model, Pendulum, UChain, Visitor, visit};
 use tests::{Random, assert_all_close, largest};
 use ukcore::simulate::{Member, Switching};
 use ukcore::{Ensemble, Error, Simulation, State};
@@ -28,8 +27,8 @@ fn on_threads(threads: usize, ensemble: &Ensemble, t_end: f64) -> Vec<Result<Mem
 #[test]
 fn members_move_as_they_do_alone() {
     struct Alone;
-    impl Check for Alone {
-        fn check<M: Model>(&self) {
+    impl Visitor for Alone {
+        fn visit<M: Model>(&mut self) {
             let members = members::<M>(11);
             let t_end = M::duration().min(0.4);
             let results = Ensemble::new(members.clone())
@@ -81,7 +80,7 @@ fn members_move_as_they_do_alone() {
             assert!(arrived > 2, "{}: {arrived}", M::ID);
         }
     }
-    every_type(&Alone);
+    visit(&mut Alone);
 }
 
 #[test]
@@ -113,8 +112,8 @@ fn samples_of_members_that_go_backward_are_those_of_runs_that_do() {
 #[test]
 fn a_result_depends_on_neither_neighbours_nor_threads() {
     struct Company;
-    impl Check for Company {
-        fn check<M: Model>(&self) {
+    impl Visitor for Company {
+        fn visit<M: Model>(&mut self) {
             let mut members = members::<M>(21);
             let t_end = M::duration().min(0.2);
             let run = |members: &[(M, State)], threads| {
@@ -131,7 +130,7 @@ fn a_result_depends_on_neither_neighbours_nor_threads() {
             assert_eq!(reversed, all, "{}: in other order", M::ID);
         }
     }
-    every_type(&Company);
+    visit(&mut Company);
 }
 
 ukcore::multibody! {

@@ -1,6 +1,6 @@
 //! All models in turn.
 
-use models::{Entry, Model, StartOptions, Visitor};
+use models::{Entry, StartOptions};
 use tests::Random;
 use ukcore::{Solver, SolverOptions, State};
 
@@ -30,27 +30,4 @@ pub(crate) fn start(model: &Entry) -> State {
     let name = model.starts.first().map_or("", |start| start.name);
     let start = model.start(&model.mechanism, name, &StartOptions::new());
     start.expect("the default start exists")
-}
-
-/// A test of any model that needs its type, and is compiled for each.
-pub(crate) trait Check {
-    /// Tests the model `M`; panics where it fails.
-    fn check<M: Model>(&self);
-}
-
-/// Runs `check` on the type of every model of the registry.
-pub(crate) fn every_type(check: &impl Check) {
-    struct Run<'a, C>(&'a C);
-    impl<C: Check> Visitor for Run<'_, C> {
-        type Output = ();
-        fn visit<M: Model>(self) {
-            self.0.check::<M>();
-        }
-    }
-    let mut visited = 0;
-    for id in models::ids() {
-        models::visit(id, Run(check)).expect("ids() names registered models");
-        visited += 1;
-    }
-    assert!(visited > 0, "the registry has no model");
 }

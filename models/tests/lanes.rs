@@ -1,7 +1,6 @@
 //! Lanes against one mechanism alone: each lane holds other parameters and another state.
 
-use crate::every::{Check, every_type};
-use models::{Model, Pendulum};
+use models::{Model, Pendulum, Visitor, visit};
 use tests::{Dense, Random, assert_all_close, largest};
 use ukcore::lanes::{LaneSolver, Lanes};
 use ukcore::mechanism::Terms;
@@ -99,14 +98,14 @@ fn check<M: Model, L: Lanes>() {
 #[test]
 fn each_lane_is_its_mechanism_alone() {
     struct All;
-    impl Check for All {
-        fn check<M: Model>(&self) {
+    impl Visitor for All {
+        fn visit<M: Model>(&mut self) {
             check::<M, f64>();
             check::<M, f64x4>();
             check::<M, f64x8>();
         }
     }
-    every_type(&All);
+    visit(&mut All);
 }
 
 #[test]

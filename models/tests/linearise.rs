@@ -1,7 +1,6 @@
 //! Exact derivatives of the accelerations against differences of them, and against closed forms.
 
-use crate::every::{Check, every_type};
-use models::{Model, Pendulum};
+use models::{Model, Pendulum, Visitor, visit};
 use tests::{Random, assert_all_close, largest};
 use ukcore::manifold::Projector;
 use ukcore::{Error, Linearisation, Mechanism, Solver, SolverOptions, State};
@@ -49,8 +48,8 @@ fn redundant<M: Model>() -> bool {
 #[test]
 fn columns_are_differences_of_the_accelerations() {
     struct Columns;
-    impl Check for Columns {
-        fn check<M: Model>(&self) {
+    impl Visitor for Columns {
+        fn visit<M: Model>(&mut self) {
             let mut random = Random::new(5);
             // Off the manifold, where most columns lead, redundant constraints are not redundant: see the next test.
             for _ in 0..if redundant::<M>() { 0 } else { 3 } {
@@ -101,14 +100,14 @@ fn columns_are_differences_of_the_accelerations() {
             }
         }
     }
-    every_type(&Columns);
+    visit(&mut Columns);
 }
 
 #[test]
 fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
     struct Along;
-    impl Check for Along {
-        fn check<M: Model>(&self) {
+    impl Visitor for Along {
+        fn visit<M: Model>(&mut self) {
             let mut random = Random::new(6);
             for _ in 0..3 {
                 let (mechanism, state) = member::<M>(&mut random);
@@ -143,7 +142,7 @@ fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
             }
         }
     }
-    every_type(&Along);
+    visit(&mut Along);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! The fish robot against a reference solution, and the paper's claims on its sweeps.
 
-use models::{FishRobot, Model};
-use serde_json::Value;
+use models::{FishRobot, Model, StartOptions};
 use std::f64::consts::PI;
 use tests::{Dense, Random, assert_all_close, assert_close, largest};
 use ukcore::{Mechanism, Simulation, Solver, SolverOptions, Trajectory};
@@ -51,19 +50,14 @@ fn start_acceleration(fish: &FishRobot) -> f64 {
 
 #[test]
 fn states_agree_with_the_reference() {
-    let data: Value = serde_json::from_str(include_str!("../data/fish.json")).expect("JSON");
-    let run = swim(&FishRobot::default(), 1e-10, vec![1.0, 2.0, 4.0]);
-    for sample in run.samples() {
-        let expected: Vec<f64> = data["states"][format!("{:.1}", sample.t)]
-            .as_array()
-            .expect("a list")
-            .iter()
-            .map(|v| v.as_f64().expect("a number"))
-            .collect();
-        let body = [FishRobot::X1, FishRobot::Y1, FishRobot::TH1];
-        let mut found = body.map(|i| sample.q[i]).to_vec();
-        found.extend(body.map(|i| sample.v[i]));
-        assert_all_close(&format!("t = {}", sample.t), &found, &expected, 1e-8);
+    let reference = FishRobot::references().remove(0);
+    let times = reference.states.iter().map(|state| state.t).collect();
+    let run = swim(&FishRobot::default(), 1e-10, times);
+    assert_eq!(run.samples().len(), 3);
+    for (sample, expected) in run.samples().zip(&reference.states) {
+        let case = format!("t = {}", sample.t);
+        assert_all_close(&case, sample.q, &expected.q, 1e-8);
+        assert_all_close(&case, sample.v, &expected.v, 1e-8);
     }
 }
 
@@ -98,9 +92,11 @@ fn start_is_consistent() {
     let mut random = Random::new(3);
     for _ in 0..10 {
         let fish: FishRobot = random.parameters(0.3);
-        let body: [f64; 3] = std::array::from_fn(|_| random.signed());
-        let rate: [f64; 3] = std::array::from_fn(|_| random.signed());
-        let state = fish.follow(random.signed(), body, rate);
+        let options = StartOptions::new()
+            .with("x", random.signed())
+            .with("y", random.signed())
+            .with("angle", random.signed());
+        let state = fish.start("table3", &options).expect("a start");
         let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
         let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
         fish.prepared().residual(state.t, &state.q, &mut phi);

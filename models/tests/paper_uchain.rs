@@ -4,7 +4,7 @@ use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde_json::Value;
 use tests::{assert_all_close, assert_close, largest};
-use ukcore::simulate::{Direction, Sample};
+use ukcore::simulate::Direction;
 use ukcore::{Error, Event, Mechanism, Simulation, Solver, SolverOptions, State, Trajectory};
 
 /// For x0 = 12 … 16: lowest point, m, and its time, s, by an independent integration in angles at 1e-12, which agrees with the
@@ -123,30 +123,12 @@ fn tip_is_ahead_of_a_free_fall_until_it_turns() {
     }
 }
 
-/// The numbers called `key` of a state of the reference.
-fn numbers(expected: &Value, key: &str) -> Vec<f64> {
-    let list = expected[key].as_array().expect("a list");
-    let parse = |v: &Value| v.as_str().expect("decimals").parse().expect("a number");
-    list.iter().map(parse).collect()
-}
-
-/// A state, by the keys of the reference.
-fn by_key(state: Sample<'_>) -> [(&'static str, Vec<f64>); 4] {
-    let pick = |values: &[f64], which: [usize; 17]| which.map(|i| values[i]).to_vec();
-    [
-        ("x", pick(state.q, UChain::X)),
-        ("y", pick(state.q, UChain::Y)),
-        ("vx", pick(state.v, UChain::X)),
-        ("vy", pick(state.v, UChain::Y)),
-    ]
-}
-
 /// A rounding error of the start alone, 1e-16 to 1e-15, grows to 135 times as much by then; and which error a run has depends on the steps
 /// it happens to take. So the median over some tolerances counts.
 #[test]
 fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
-    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
-    let expected = &data["states"]["1.5"];
+    let reference = UChain::references().remove(0);
+    let expected = reference.states.last().expect("to 1.5 s");
     let mut errors: Vec<f64> = (0..15)
         .map(|k| {
             let run = Simulation::new(UChain::default())
@@ -155,11 +137,9 @@ fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
                 .until(1.5)
                 .unwrap_or_else(|e| panic!("{}", e.error));
             let last = run.last().expect("the run has an end");
-            let errors = by_key(last).map(|(key, values)| {
-                let pairs = values.into_iter().zip(numbers(expected, key));
-                pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-            });
-            errors.into_iter().fold(0.0, f64::max)
+            let found = last.q.iter().chain(last.v);
+            let pairs = found.zip(expected.q.iter().chain(&expected.v));
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         })
         .collect();
     errors.sort_by(f64::total_cmp);
@@ -168,14 +148,13 @@ fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
 
 #[test]
 fn states_agree_with_the_reference() {
-    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
     let mut state = start("trapezoid", 12.0);
-    for (time, expected) in data["states"].as_object().expect("an object") {
-        let end: f64 = time.parse().expect("a time");
+    for expected in UChain::references().remove(1).states {
+        let time = expected.t;
         let run = Simulation::new(UChain::default())
             .start(state)
             .tolerance(1e-10)
-            .until(end)
+            .until(time)
             .unwrap_or_else(|e| panic!("{}", e.error));
         assert_eq!(
             run.work().fallbacks,
@@ -183,10 +162,8 @@ fn states_agree_with_the_reference() {
             "the straight line serves all the way"
         );
         let last = run.last().expect("the run has an end");
-        for (key, values) in by_key(last) {
-            let what = format!("{key} at t = {time}");
-            assert_all_close(&what, &values, &numbers(expected, key), 1e-8);
-        }
+        assert_all_close(&format!("q at {time}"), last.q, &expected.q, 1e-8);
+        assert_all_close(&format!("v at {time}"), last.v, &expected.v, 1e-8);
         // φ = (length² − l²), so the length itself is off by half of it.
         let residuals = run.residuals();
         let lengths = largest(residuals.iter().map(|r| &r.position));
@@ -273,4 +250,22 @@ fn link_forces_are_internal() {
             1e-11 * size.max(1.0),
         );
     }
+}
+
+#[test]
+fn wrong_start_names_are_answered() {
+    let chain = UChain::default();
+    let error = chain
+        .start("trapezium", &StartOptions::new())
+        .expect_err("a slip");
+    assert_eq!(
+        error.to_string(),
+        "no start is called `trapezium`; did you mean `trapezoid`? There are `trapezoid`, `catenary`"
+    );
+    let options = StartOptions::new().with("x", 12.0);
+    let error = chain.start("catenary", &options).expect_err("a slip");
+    assert_eq!(
+        error.to_string(),
+        "no start option is called `x`; did you mean `x0`?"
+    );
 }

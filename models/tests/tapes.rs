@@ -1,7 +1,6 @@
 //! Numbers that read emitted functions off their tapes get what compiled functions compute, to the last bit.
 
-use crate::every::{Check, every_type};
-use models::Model;
+use models::{Model, Visitor, visit};
 use tests::Random;
 use ukcore::Mechanism;
 use ukcore::mechanism::Terms;
@@ -114,12 +113,12 @@ impl<S: Scalar> Buffers<S> {
 #[test]
 fn tapes_of_all_models_say_what_compiled_functions_do() {
     struct Tapes;
-    impl Check for Tapes {
-        fn check<M: Model>(&self) {
+    impl Visitor for Tapes {
+        fn visit<M: Model>(&mut self) {
             compare(M::ID, &M::default(), &mut Random::new(71));
         }
     }
-    every_type(&Tapes);
+    visit(&mut Tapes);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `verify!` finds what is planted, and finds nothing in what is right.
 
-use crate::every::{Check, every_type};
+use models::{Visitor, visit};
 use ukcore::mechanism::{Energy, Terms};
 use ukcore::model::{Entry, Model, StartOptions};
 use ukcore::scalar::Scalar;
@@ -10,13 +10,13 @@ use ukcore::{Error, Mechanism, Prepared, State, verify};
 #[test]
 fn models_are_what_they_declare() {
     struct Verify;
-    impl Check for Verify {
-        fn check<M: Model>(&self) {
+    impl Visitor for Verify {
+        fn visit<M: Model>(&mut self) {
             let found = verify::<M>(&Entry::of::<M>()).unwrap_or_else(|e| panic!("{e}"));
             assert!(found.states >= 4 && found.numbers > 100, "{found}");
         }
     }
-    every_type(&Verify);
+    visit(&mut Verify);
 }
 
 ukcore::multibody! {

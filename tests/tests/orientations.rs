@@ -170,10 +170,15 @@ fn normal(e: [f64; 4]) -> [f64; 4] {
     e.map(|x| x / length)
 }
 
-/// ė at a random angular velocity.
-fn rate(e: [f64; 4], random: &mut Random) -> [f64; 4] {
-    let w: [f64; 3] = std::array::from_fn(|_| 3.0 * random.signed());
-    models::rigid_body::quaternion_rate(e, w)
+/// ė = ½ G(e)ᵀ ω at a random angular velocity ω in body axes.
+fn rate([e0, e1, e2, e3]: [f64; 4], random: &mut Random) -> [f64; 4] {
+    let [w1, w2, w3]: [f64; 3] = std::array::from_fn(|_| 1.5 * random.signed());
+    [
+        -e1 * w1 - e2 * w2 - e3 * w3,
+        e0 * w1 - e3 * w2 + e2 * w3,
+        e3 * w1 + e0 * w2 - e1 * w3,
+        -e2 * w1 + e1 * w2 + e0 * w3,
+    ]
 }
 
 /// States of all mechanisms of this file from one seed.

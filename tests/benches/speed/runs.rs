@@ -46,14 +46,9 @@ fn ours_alone(
 
 /// (q, q̇) at the end, in 113-bit arithmetic.
 fn reference() -> Vec<f64> {
-    let data: Value =
-        serde_json::from_str(include_str!("../../../models/data/uchain.json")).expect("JSON");
-    let state = &data["states"]["1.5"];
-    let decimals = |x: &Value| -> f64 { x.as_str().expect("decimals").parse().expect("a number") };
-    ["x", "y", "vx", "vy"]
-        .iter()
-        .flat_map(|part| state[part].as_array().expect("a list").iter().map(decimals))
-        .collect()
+    let reference = UChain::references().remove(0);
+    let end = reference.states.last().expect("to 1.5 s");
+    [&end.q[..], &end.v].concat()
 }
 
 /// Largest error of a coordinate or velocity.

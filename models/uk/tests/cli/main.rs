@@ -85,11 +85,10 @@ impl Drop for Scratch {
 #[test]
 fn list_names_every_model_with_its_starts() {
     let list = output(&["list"]);
-    for id in models::ids() {
-        let entry = list
-            .lines()
-            .find(|l| l.split_whitespace().next() == Some(id));
-        assert!(entry.is_some(), "{id} in {list}");
+    for model in models::entries() {
+        let id = model.id.as_str();
+        let mut names = list.lines().map(|l| l.split_whitespace().next());
+        assert!(names.any(|name| name == Some(id)), "{id} in {list}");
     }
     assert!(list.contains("start trapezoid (default)"));
     assert!(list.contains("x0 = 12 m"));
@@ -366,7 +365,8 @@ fn explain_shows_the_code() {
 
 #[test]
 fn every_model_is_explained() {
-    for id in models::ids() {
+    for model in models::entries() {
+        let id = model.id.as_str();
         let text = output(&["explain", id]);
         assert!(text.starts_with(&format!("{id}: ")), "{id}");
     }
@@ -376,7 +376,8 @@ fn every_model_is_explained() {
 #[test]
 fn every_model_has_an_animation() {
     let out = Scratch::new("animations");
-    for id in models::ids() {
+    for model in models::entries() {
+        let id = model.id.as_str();
         let page = out.path(id);
         output(&[
             "animate",

@@ -48,12 +48,13 @@ fn rows_scaled(s: f64, effort: &mut Effort) -> Result<f64, Error> {
     scaled.set("s", s)?;
     scaled.set("r", 1.0 / s)?;
     let double = DoublePendulum::default();
-    let (q, v) = double.at_angles([0.9, -0.4], [1.0, 2.0]);
-    let state = State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-    };
+    let options = [
+        ("from1", 0.9),
+        ("from2", -0.4),
+        ("rate1", 1.0),
+        ("rate2", 2.0),
+    ];
+    let state = double.start("released", &options.into())?;
     let expected = precise::accelerations(&plain, 0.0, &state.q, &state.v);
     let expected = expected.unwrap_or_else(|| vec![f64::NAN; 4]);
     let now = accelerations_off(&scaled, &state, &REGULAR, &expected, effort)?;
