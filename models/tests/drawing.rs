@@ -1,8 +1,8 @@
 //! Pictures: what is declared, and what bodies and joints give by themselves.
 
-use tests::assert_all_close;
-use ukcore::Mechanism;
+use tests::{assert_all_close, assert_close};
 use ukcore::spec::ShapeKind::{Line, Spring, Support};
+use ukcore::{Mechanism, Prepared};
 
 ukcore::multibody! {
     /// A crank, a plate that it carries, a loose body on a spring.
@@ -70,6 +70,121 @@ fn bodies_and_joints_have_a_picture() {
     ]
     .concat();
     assert_all_close("points", &numbers, &expected, 1e-15);
+}
+
+ukcore::multibody! {
+    /// A plate whose corners are named across, and a body whose points lie in no plane.
+    pub Hung {
+        bodies {
+            spatial plate { mass: 1.0, inertia: [0.1, 0.1, 0.2] }
+            spatial star { mass: 1.0, inertia: [0.1, 0.1, 0.1] }
+        }
+        forces {
+            spring(ground.at([0, 0, 3]), plate.at([1, 1, 0]), 10.0, 1.0)
+            spring(ground.at([0, 0, 3]), plate.at([-1, -1, 0]), 10.0, 1.0)
+            spring(star.at([1, 0, 0]), plate.at([1, -1, 0]), 10.0, 1.0)
+            spring(star.at([0, 1, 0]), plate.at([-1, 1, 0]), 10.0, 1.0)
+            spring(star.at([0, 0, 1]), ground.at([0, 0, 3]), 10.0, 1.0)
+        }
+    }
+}
+
+#[test]
+fn spatial_bodies_are_drawn_around_a_plane_or_from_their_centres() {
+    let drawing = Hung::SPEC.drawing;
+    let mut q = vec![0.0; 14];
+    (q[Hung::PLATE_E0], q[Hung::STAR_E0]) = (1.0, 1.0);
+    let mut numbers = vec![f64::NAN; drawing.numbers()];
+    let hung = Hung::default().prepared();
+    hung.drawing(0.0, &q, &[0.0; 14], &mut numbers);
+    let mut lines = Vec::new();
+    let mut rest = &numbers[..];
+    for shape in drawing.shapes {
+        let (own, after) = rest.split_at(shape.numbers);
+        rest = after;
+        if shape.kind == Line {
+            lines.push(own.chunks(3).collect::<Vec<_>>());
+        }
+    }
+    let [plate, star] = &lines[..] else {
+        panic!("two bodies, {} lines", lines.len())
+    };
+    // Around the square, each side once, wherever it begins.
+    assert_eq!((plate.len(), plate.first()), (5, plate.last()));
+    for side in plate.windows(2) {
+        assert_eq!(
+            tests::largest(&[side[0][0] - side[1][0], side[0][1] - side[1][1]]),
+            2.0
+        );
+        assert!(
+            side[0][0] == side[1][0] || side[0][1] == side[1][1],
+            "{side:?}"
+        );
+    }
+    let centre = [0.0; 3];
+    assert_eq!(
+        star[..],
+        [
+            &centre,
+            &[1.0, 0.0, 0.0],
+            &centre,
+            &[0.0, 1.0, 0.0],
+            &centre,
+            &[0.0, 0.0, 1.0],
+            &centre
+        ]
+    );
+}
+
+ukcore::multibody! {
+    /// A disc on the plane z = 0.
+    pub Coin {
+        bodies { spatial coin { mass: 1.0, inertia: [0.1, 0.2, 0.1] } }
+        holonomic { touches: disc(coin.at([0, 0, 0]), [0, 1, 0], 0.4) }
+    }
+}
+
+ukcore::multibody! {
+    /// A wheel on a line.
+    pub Wheel {
+        bodies { planar hub { mass: 1.0, inertia: 0.1 } }
+        holonomic { rolls: wheel(ground.at([0, 0]), hub.at([0, 0]), [1, 0], 0.4) }
+    }
+}
+
+/// A spoke and the rim, from points that have so many coordinates.
+fn spoke_and_rim(mechanism: &Prepared, q: &[f64], dimension: usize) -> Vec<Vec<f64>> {
+    let drawing = mechanism.spec().drawing;
+    let mut numbers = vec![f64::NAN; drawing.numbers()];
+    mechanism.drawing(0.0, q, &vec![0.0; q.len()], &mut numbers);
+    let own = &numbers[..drawing.shapes[0].numbers];
+    own.chunks(dimension).map(<[f64]>::to_vec).collect()
+}
+
+#[test]
+fn what_rolls_has_a_rim_that_touches_the_ground() {
+    let (sin, cos) = 0.3_f64.sin_cos();
+    // The axis turned about x by 0.6 rad, which leaves the lowest point at r cos 0.6 below the centre.
+    let height = 0.4 * 0.6_f64.cos();
+    let coin = [1.0, 2.0, height, cos, sin, 0.0, 0.0];
+    for (mechanism, q, up) in [
+        (Coin::default().prepared(), &coin[..], 2),
+        (Wheel::default().prepared(), &[1.0, 0.4, 0.3], 1),
+    ] {
+        let points = spoke_and_rim(&mechanism, q, up + 1);
+        let (centre, rim) = points.split_first().expect("a centre");
+        assert_eq!(centre[..], q[..=up]);
+        for point in rim {
+            let square: f64 = point
+                .iter()
+                .zip(centre)
+                .map(|(x, c)| (x - c) * (x - c))
+                .sum();
+            assert_close("radius", square.sqrt(), 0.4, 1e-15);
+        }
+        let lowest = rim.iter().map(|p| p[up]).fold(f64::INFINITY, f64::min);
+        assert!((-1e-15..2e-3).contains(&lowest), "{lowest}");
+    }
 }
 
 #[test]

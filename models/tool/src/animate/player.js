@@ -38,8 +38,9 @@
   };
   const all = runs.flatMap((run) => run.pictures).filter(finite);
   const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
-  // Along axes on which the mechanism goes much farther than it is large, the view goes with it.
-  const moving = shapes.filter((shape) => shape.kind !== "support");
+  // Along axes on which the mechanism goes much farther than it is large, the view goes with it; what stands still is no part of that.
+  const still = (shape) => all.every((picture) => points(shape, picture).flat().every((x, i) => x === all[0][shape.start + i]));
+  const moving = shapes.filter((shape) => !still(shape));
   let extent = 0;
   for (const picture of all) {
     const whole = bounds(picture, shapes), own = bounds(picture, moving);

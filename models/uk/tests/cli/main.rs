@@ -252,6 +252,28 @@ fn a_start_is_assembled_from_a_guess() {
     let note =
         "another way to put it together is as near to what is guessed: it differs in `y` by 1.600";
     assert!(text(&open.stderr).contains(note));
+    let (page, report) = (
+        Scratch::new("other ways"),
+        Scratch::new("report of one of two ways"),
+    );
+    for (rest, out) in [
+        (
+            &["animate", "pendulum", "--until", "0.1"],
+            page.path("page.html"),
+        ),
+        (
+            &["report", "pendulum", "--until", "0.1"],
+            report.path("out"),
+        ),
+    ] {
+        let quick = if rest[0] == "report" {
+            &["--quick"][..]
+        } else {
+            &[]
+        };
+        let told = uk(&[&rest[..], quick, &guess, &["--out", &out]].concat());
+        assert!(text(&told.stderr).contains(note), "{}", rest[0]);
+    }
     let run = json(&[&rest[..], &guess, &["--guess", "y=-0.5"]].concat());
     assert_eq!(run["start"], "assembled");
     let state = &run["final"];

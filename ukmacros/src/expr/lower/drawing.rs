@@ -4,12 +4,13 @@ use super::array::{Value, describe};
 use super::bodies::{Frame, Point};
 use super::system::{Drawing, ShapeKind, ShapeValue};
 use super::{Env, Lowering, Place};
-use crate::diag::suggest;
+use crate::diag::{Loc, suggest};
 use crate::expr::eval;
 use crate::expr::graph::Id;
 use crate::model::Scope;
 use crate::parse::{Declaration, Shape};
 use std::cmp::Ordering;
+use std::f64::consts::TAU;
 use std::rc::Rc;
 
 /// Shapes by name: what they are, and how many points they take at least and at most.
@@ -24,6 +25,9 @@ const SHAPES: [(&str, ShapeKind, usize, usize); 6] = [
 
 /// How shapes are written.
 const USAGE: &str = "`line(p, q)`, `polyline(p, q, …)`, `circle(centre, radius)`, `spring(p, q)`, `trace(p)`, `text(p, \"…\")`";
+
+/// Sides of the polygon that stands for a round rim.
+const SIDES: u32 = 36;
 
 /// The points that a joint, or what acts with a force, is between; or one that is reported.
 pub(super) struct Between {
@@ -40,6 +44,32 @@ impl<'m> Lowering<'m> {
         });
         let points = points.collect();
         self.between.push(Between { name, points });
+    }
+
+    /// Remembers the rim of what rolls about the point `q` of the joint `name` with the radius `r`, and a spoke that shows how it turns.
+    pub(super) fn rim(&mut self, name: &str, loc: Loc, inner: &Env<'m>) {
+        let axes = match name {
+            "wheel" | "rack" => ["r * q.along([1, 0])", "r * q.along([0, 1])"],
+            "disc" => ["r * q.along(normals(u)[0])", "r * q.along(normals(u)[1])"],
+            _ => return,
+        };
+        let Some((_, Value::Point(q))) = inner.args.iter().find(|(name, _)| name == "q") else {
+            return;
+        };
+        let axes = axes.map(|text| self.written(text, loc, inner));
+        let [first, second] = [&axes[0], &axes[1]].map(Value::entries);
+        let mut numbers = q.place.entries().to_vec();
+        for k in 0..=SIDES {
+            let (sin, cos) = (TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
+            let at = q.place.entries().iter().zip(first).zip(second);
+            let at = at.map(|((q, a), b)| self.graph.sum(&[(1.0, *q), (cos, *a), (sin, *b)]));
+            numbers.extend(at);
+        }
+        self.rims.push(ShapeValue {
+            kind: ShapeKind::Line,
+            numbers,
+            label: String::new(),
+        });
     }
 
     /// What is drawn.
@@ -115,11 +145,14 @@ impl<'m> Lowering<'m> {
         });
     }
 
-    /// Bodies as outlines of their centre and of the points where they are joined, pushed or reported; springs, rods and forces between
-    /// points; and the places on the ground that something hangs on.
+    /// Rims of what rolls; bodies as outlines of their centre and of the points where they are joined, pushed or reported; springs, rods and
+    /// forces between points; and the places on the ground that something hangs on.
     fn skeleton(&mut self) -> Drawing {
         let between = std::mem::take(&mut self.between);
-        let mut out = Drawing::default();
+        let mut out = Drawing {
+            shapes: std::mem::take(&mut self.rims),
+            ..Drawing::default()
+        };
         let mut add = |kind, points: &[Vec<Id>]| {
             out.dimension = points[0].len();
             out.shapes.push(ShapeValue {
@@ -161,20 +194,22 @@ impl<'m> Lowering<'m> {
                     points.push(place);
                 }
             }
-            if !points.contains(&centre) {
+            let hub = points.iter().position(|place| *place == centre);
+            let hub = hub.unwrap_or_else(|| {
                 points.push(centre);
-            }
-            match &self.outline(points)[..] {
+                points.len() - 1
+            });
+            match &self.outline(points, hub)[..] {
                 [only] => add(ShapeKind::Mark, std::slice::from_ref(only)),
-                [p, q] => add(ShapeKind::Line, &[p.clone(), q.clone()]),
-                all => add(ShapeKind::Line, &[all, &all[..1]].concat()),
+                line => add(ShapeKind::Line, line),
             }
         }
         out
     }
 
-    /// The corners of the convex hull of points of one body, in their order around it; in space all points, if they are on no line.
-    fn outline(&self, points: Vec<Vec<Id>>) -> Vec<Vec<Id>> {
+    /// A line through points of one body: around their convex hull where they lie in a plane, from end to end where they lie on a line, and
+    /// otherwise from one to the other by way of the point `hub`.
+    fn outline(&self, points: Vec<Vec<Id>>, hub: usize) -> Vec<Vec<Id>> {
         // The same wherever the body is.
         let mut q = vec![0.0; self.model.coord_elements.len()];
         self.model.quaternions().for_each(|first| q[first] = 1.0);
@@ -186,15 +221,25 @@ impl<'m> Lowering<'m> {
         };
         let places = points.iter().map(|p| eval::eval(&self.graph, p, &here));
         let places: Vec<Vec<f64>> = places.collect();
-        let corners = match places[0].len() {
-            2 => hull(&places),
-            _ => ends(&places).unwrap_or_else(|| (0..points.len()).collect()),
+        let line: Vec<usize> = match in_plane(&places) {
+            Some(flat) => {
+                let mut corners = hull(&flat);
+                if corners.len() > 2 {
+                    corners.push(corners[0]);
+                }
+                corners
+            }
+            None => {
+                let others = (0..points.len()).filter(|k| *k != hub);
+                let there_and_back = others.flat_map(|k| [k, hub]);
+                std::iter::once(hub).chain(there_and_back).collect()
+            }
         };
-        corners.into_iter().map(|k| points[k].clone()).collect()
+        line.into_iter().map(|k| points[k].clone()).collect()
     }
 }
 
-/// Points nearer to a line than this part of its length are on it.
+/// Points nearer to a line or a plane than this part of its length are on it.
 const STRAIGHT: f64 = 1e-9;
 
 /// From `p` to `q`.
@@ -240,24 +285,36 @@ fn hull(points: &[Vec<f64>]) -> Vec<usize> {
     below
 }
 
-/// The ends of points that are on one line, if they are.
-fn ends(points: &[Vec<f64>]) -> Option<Vec<usize>> {
-    let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
-    let farthest = |from: usize| {
-        let size = |k: &usize| square(&way(&points[from], &points[*k]));
-        (0..points.len()).max_by(|a, b| size(a).total_cmp(&size(b)))
+/// Two coordinates of points that lie in one plane, if they do: of points of space along their greatest distance from the first one, and
+/// across it.
+fn in_plane(points: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    if points[0].len() == 2 {
+        return Some(points.to_vec());
+    }
+    let inner = |u: &[f64], v: &[f64]| u.iter().zip(v).map(|(a, b)| a * b).sum::<f64>();
+    let mut left: Vec<Vec<f64>> = points.iter().map(|p| way(&points[0], p)).collect();
+    let longest = |left: &[Vec<f64>]| {
+        let square = |v: &&Vec<f64>| inner(v, v);
+        let found = left.iter().max_by(|u, v| square(u).total_cmp(&square(v)));
+        found.map_or(Vec::new(), Clone::clone)
     };
-    let first = farthest(0)?;
-    let last = farthest(first)?;
-    let line = way(&points[first], &points[last]);
-    let beside = |p: &Vec<f64>| {
-        let v = way(&points[first], p);
-        let along: f64 = v.iter().zip(&line).map(|(a, b)| a * b).sum();
-        square(&v) * square(&line) - along * along
-    };
-    let size = square(&line);
-    let straight = points.iter().all(|p| beside(p) <= STRAIGHT * size * size);
-    let mut ends = vec![first.min(last), first.max(last)];
-    ends.dedup();
-    straight.then_some(ends)
+    let size = inner(&longest(&left), &longest(&left));
+    let mut flat = vec![Vec::new(); points.len()];
+    for _ in 0..2 {
+        let axis = longest(&left);
+        let square = inner(&axis, &axis);
+        for (rest, flat) in left.iter_mut().zip(&mut flat) {
+            let share = if square > STRAIGHT * STRAIGHT * size {
+                inner(rest, &axis) / square
+            } else {
+                0.0
+            };
+            flat.push(share * square.sqrt());
+            rest.iter_mut()
+                .zip(&axis)
+                .for_each(|(x, a)| *x -= share * a);
+        }
+    }
+    let beside = longest(&left);
+    (inner(&beside, &beside) <= STRAIGHT * STRAIGHT * size).then_some(flat)
 }

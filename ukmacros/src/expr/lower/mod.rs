@@ -143,6 +143,7 @@ fn lower_with<'m>(
         known: HashMap::new(),
         reaction_used: None,
         between: Vec::new(),
+        rims: Vec::new(),
         dimensions,
     };
     let results = &mut lowering.results;
@@ -197,6 +198,8 @@ struct Lowering<'m> {
     reaction_used: Option<Loc>,
     /// What joints and springs are between.
     between: Vec<Between>,
+    /// Rims of what rolls.
+    rims: Vec<system::ShapeValue>,
     /// Dimensions, where it is these that are looked at.
     dimensions: Option<Dimensions<'m>>,
 }

@@ -223,6 +223,7 @@ impl<'m> Lowering<'m> {
         }
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
+        self.rim(part.name, e.loc, &inner);
         let load = self.load(&inner);
         Value::Joint(Rc::new(Joint { rows, names, load }))
     }
