@@ -8,8 +8,6 @@
 
 mod accelerations;
 mod bricard;
-#[cfg(feature = "ivp")]
-mod by_hand;
 mod chain;
 mod dense;
 mod fish;

@@ -112,14 +112,10 @@ pub(crate) fn uchain17() -> Vec<Value> {
         };
         let projected = contender("Simulation, with projection", Stabilisation::Projection);
         let drifting = contender("Simulation, without projection", Stabilisation::None);
-        #[cfg_attr(not(feature = "ivp"), allow(unused_mut))]
-        let mut contenders = vec![projected, drifting];
-        #[cfg(feature = "ivp")]
-        contenders.insert(0, crate::by_hand::contender(mech, start, wanted));
         let group = Group {
             name,
             remarks: Vec::new(),
-            contenders,
+            contenders: vec![projected, drifting],
         };
         group.run()
     };
@@ -283,14 +279,10 @@ pub(crate) fn ensemble() -> Value {
         }),
         remark: format!("{rejected} steps rejected in all"),
     };
-    #[cfg_attr(not(feature = "ivp"), allow(unused_mut))]
-    let mut contenders = vec![ours, in_lanes];
-    #[cfg(feature = "ivp")]
-    contenders.insert(0, crate::by_hand::ensemble(&mech, &starts, MEASURED));
     let group = Group {
         name: "ensemble/uchain17",
         remarks: vec!["time per chain".to_owned()],
-        contenders,
+        contenders: vec![ours, in_lanes],
     };
     group.run()
 }
