@@ -4,10 +4,12 @@
 #![deny(missing_docs)]
 
 pub mod leg;
+mod linkage;
 mod machines;
 mod oracle;
 mod random;
 
+pub use linkage::FourBar;
 pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 

@@ -143,7 +143,7 @@ pub Broken {
     output { angle = atan2(x[0], y) }
 }";
 
-/// The type that `BROKEN` becomes, which `tests/tests/fallback.rs` compiles and uses.
+/// The type that `BROKEN` becomes, which `tests/motion/fallback.rs` compiles and uses.
 fn fallback() -> String {
     let (code, errors) = super::expand(BROKEN);
     assert_eq!(errors.len(), 1, "{errors:?}");

@@ -229,7 +229,7 @@ fn chains_of_values_make_graphs_in_proportion() {
 /// Constraints on everything in reach: a coordinate waits for pairs whose inertia changes three couplings away.
 #[test]
 fn an_order_ends_where_more_rows_than_coordinates_are_coupled() {
-    let text = include_str!("../../../tests/tests/vectors.rs");
+    let text = include_str!("../../../tests/structure/vectors.rs");
     let (_, text) = text.split_once("multibody! {").expect("a declaration");
     let (declared, _) = text.split_once("\n}\n").expect("its end");
     let frame = "frame: rot(s) * [[p[0][0], p[0][1]], [p[1][0], p[1][1]]] = transpose(rot(t))";

@@ -1,6 +1,6 @@
 //! The ways to put a mechanism together near a guess: the nearest, what moved, and others that are as near.
 
-use crate::linkage::FourBar;
+use tests::FourBar;
 use tests::assert_close;
 use ukcore::model::StartOptions;
 use ukcore::{Error, Mechanism, State, assemble, assemble_with_alternatives, branches};

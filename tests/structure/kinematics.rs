@@ -4,7 +4,7 @@ mod refusals;
 
 use std::f64::consts::{PI, TAU};
 
-use crate::linkage::FourBar;
+use tests::FourBar;
 use tests::assert_close;
 use ukcore::{Error, Kinematics, Mechanism, State, kinematics};
 

@@ -1,6 +1,6 @@
 //! Declared starts: what they hold, what they leave to the constraints, and what goes wrong.
 
-use crate::linkage::FourBar;
+use tests::FourBar;
 use tests::{assert_all_close, assert_close};
 use ukcore::assemble::residuals;
 use ukcore::model::StartOptions;

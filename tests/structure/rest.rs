@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::linkage::FourBar;
+use tests::FourBar;
 use tests::{assert_all_close, assert_close};
 use ukcore::{Error, Mechanism, Stability, State, equilibrium};
 

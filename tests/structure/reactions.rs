@@ -8,8 +8,8 @@ use ukcore::{
     lost_reactions,
 };
 
-use crate::linkage::FourBar;
 use crate::rough::Wire;
+use tests::FourBar;
 
 /// A body of each with gravity, that the given joint connects.
 macro_rules! spatial {

@@ -1,0 +1,25 @@
+//! Tests of motions: runs in closed form and against oracles, singular positions, switches, failures. One program, so that what they share is
+//! linked once.
+
+mod branches;
+mod cells;
+mod crossings;
+mod failures;
+mod fallback;
+mod friction;
+mod integrals;
+mod kinks;
+mod misses;
+mod orientations;
+mod passing;
+mod redundant;
+mod redundant_loop;
+mod rows_in_time;
+mod scales;
+mod stability;
+mod stiff;
+mod switches;
+mod tied;
+mod tree;
+mod turned;
+mod vanishing;
