@@ -240,7 +240,8 @@ fn residuals<M: Mechanism>(mechanism: &M, t: f64, q: &[f64], v: &[f64]) -> [Vec<
     [position, velocity].map(|r| r.into_iter().map(DoubleDouble::to_f64).collect())
 }
 
-/// The largest residual of a state, in units of 1e-12 of what it is a length or a rate away from it.
+/// The largest residual of a state, in units of 1e-12 of what it is a length or a rate away from it, or of what rounding of the coordinates
+/// makes of it.
 fn worst<M: Mechanism>(known: &Known<M>, found: &State) -> f64 {
     let mechanism = &known.mechanism;
     let left = residuals(mechanism, known.state.t, &found.q, &found.v);
@@ -271,13 +272,27 @@ fn worst<M: Mechanism>(known: &Known<M>, found: &State) -> f64 {
             *size = size.max(there.abs());
         }
     }
-    let pairs = left.iter().flatten().zip(sizes.iter().flatten());
-    pairs.fold(0.0, |most: f64, (r, size)| {
-        if *r == 0.0 {
-            most
-        } else {
-            most.max(r.abs() / (1e-12 * size))
+    // What a unit of rounding in each coordinate and velocity makes of them: of a sine, say, whose angle is millions of turns.
+    let mut rounding = [vec![0.0_f64; M::SPEC.holonomic], vec![0.0_f64; M::SPEC.m()]];
+    for j in 0..2 * found.q.len() {
+        let (mut q, mut v) = (found.q.clone(), found.v.clone());
+        let x = match j < q.len() {
+            true => &mut q[j],
+            false => &mut v[j - found.q.len()],
+        };
+        *x += f64::EPSILON * x.abs();
+        let there = residuals(mechanism, known.state.t, &q, &v);
+        let moved = there.iter().flatten().zip(left.iter().flatten());
+        for (rounding, (there, left)) in rounding.iter_mut().flatten().zip(moved) {
+            *rounding += (there - left).abs();
         }
+    }
+    let bounds = sizes.iter().flatten().zip(rounding.iter().flatten());
+    let bounds = bounds.map(|(size, rounding)| (1e-12 * size).max(*rounding));
+    let pairs = left.iter().flatten().zip(bounds);
+    pairs.fold(0.0, |most: f64, (r, bound)| match *r == 0.0 {
+        true => most,
+        false => most.max(r.abs() / bound),
     })
 }
 
@@ -585,6 +600,38 @@ fn a_wave_is_met_next_to_the_guess_in_every_unit_of_length() {
 fn what_the_hunt_has_found() {
     for found in hunt(1_000_078..1_000_079) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
+    }
+}
+
+/// A rod of no length has a direction that is rounding, or one that is left out; no residual of it says which place is the nearest.
+#[test]
+fn a_rod_of_no_length_far_from_the_origin_may_move() {
+    let (a, b) = (17771491.883492175, -9087580.561904345);
+    let mechanism = Short {
+        l: 0.0,
+        a,
+        b,
+        far: 79403139.39138073,
+    };
+    for k in 0..100 {
+        let (i, j) = (f64::from(k % 10), f64::from(k / 10));
+        let guess = State {
+            t: 0.0,
+            q: vec![
+                a - 19.0 + 0.37 * i,
+                b - 36.0 + 0.41 * j,
+                97174635.6,
+                b - 9.0,
+            ],
+            v: vec![36.8, -27.9, 29.3, -36.2],
+        };
+        let found = assemble(&mechanism, &guess, &[]);
+        let State { q, v, .. } = found.unwrap_or_else(|e| panic!("{i}, {j}: {e}"));
+        // The square of a distance of 1e-5 is rounding of the places' squares.
+        let off = [q[0] - a, q[1] - b, q[3] - b, q[2] - q[0] - mechanism.far];
+        assert!(tests::largest(&off) < 1e-5, "{i}, {j}: {off:?}");
+        let off = [v[0] - v[2], v[1] - v[3]];
+        assert!(tests::largest(&off) < 1e-13 * 36.0, "{i}, {j}: {off:?}");
     }
 }
 

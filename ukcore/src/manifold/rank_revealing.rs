@@ -199,7 +199,7 @@ impl Manifold {
         factors.cautious |= !factored;
         factors.best.copy_from_slice(x);
         let (mut least, mut previous) = (f64::INFINITY, f64::INFINITY);
-        let (mut stalls, mut fresh, mut failure) = (0, false, None);
+        let (mut stalls, mut fresh, mut met, mut failure) = (0, false, false, None);
         let (good, count) = self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             newton.weigh(at, x);
             if !newton.acceptance.ease.is_empty() {
@@ -220,7 +220,8 @@ impl Manifold {
                 } else {
                     stalls += 1;
                     newton.measure(at, x, noise, Some(&mut factors.dense));
-                    if stalls > MAX_STALLS || newton.violated(at).next().is_none() {
+                    met = newton.violated(at).next().is_none();
+                    if stalls > MAX_STALLS || met {
                         return (0.0, 0.0);
                     }
                 }
@@ -241,9 +242,16 @@ impl Manifold {
             return Err(error);
         }
         if good < 0.5 {
-            x.copy_from_slice(&self.factors.best);
+            // The nearest place, unless a row that no step changes has told which one that is.
+            x.swap_with_slice(&mut self.factors.best);
             self.newton.evaluate(at, x);
-            if !self.accept(at, x, true) {
+            let mut accepted = self.accept(at, x, true);
+            if met && !accepted {
+                x.swap_with_slice(&mut self.factors.best);
+                self.newton.evaluate(at, x);
+                accepted = self.accept(at, x, true);
+            }
+            if !accepted {
                 return Err(self.error(at, x));
             }
         }
