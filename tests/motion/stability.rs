@@ -453,6 +453,18 @@ fn bounds_know_what_is_rounded() {
     }
 }
 
+/// Rods of half a metre beside others of a hundred thousand kilometres: what is small for the shortest counts, as far as rounding leaves it.
+#[test]
+fn short_rods_beside_long_ones_keep_their_energy() {
+    let mut outcomes = Outcomes::default();
+    for seed in [1_000_162, 1_000_353, 1_002_943] {
+        if let Err(wrong) = outcomes.case(seed, true) {
+            panic!("{wrong}");
+        }
+    }
+    assert!(outcomes.run > 0, "{outcomes:?}");
+}
+
 /// More of them, over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hunt over many seeds"]

@@ -22,7 +22,9 @@ const BEND: f64 = 1e-6;
 /// A rod that is shorter than this share of a state, known to no more than three digits there, is none.
 const LEAST: f64 = 1e3 * f64::EPSILON;
 
-/// The shortest rod counts for no less than this share of the longest: much below, what is asked of it is rounding of the others.
+/// The shortest rod counts for so much of the longest that no more is asked of it than this share of that, which rounding takes, but for no
+/// more than [`SHORT`].
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
 const SHORT: f64 = 1e-3;
 
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
@@ -143,14 +145,15 @@ impl Measure {
 
     /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
     /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
-    /// length of the shortest rod, but no less than [`SHORT`] of the longest. `size` is that of a state, more than 0 if it tells anything.
-    /// `None` where constraints are linear, or there are none.
+    /// length of the shortest rod, but no less than what is known of the longest at the tolerance `relative`. `size` is that of a state, more
+    /// than 0 if it tells anything. `None` where constraints are linear, or there are none.
     pub(crate) fn reach(
         &self,
         mech: &Prepared,
         t: f64,
         [q, v]: [&[f64]; 2],
         size: f64,
+        relative: f64,
     ) -> Option<f64> {
         let turns = self.turns.iter().map(|turn| match turn {
             Turn::Angle(i) => self.scale[*i].recip(),
@@ -195,7 +198,8 @@ impl Measure {
         for reach in bent {
             (shortest, longest) = (shortest.min(reach), longest.max(reach));
         }
-        (longest > 0.0).then(|| shortest.max(SHORT * longest))
+        let share = (ROUNDED / relative).min(SHORT);
+        (longest > 0.0).then(|| shortest.max(share * longest))
     }
 
     /// Measures the columns of A.

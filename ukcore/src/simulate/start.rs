@@ -100,7 +100,9 @@ impl Simulation {
         let measure = Measure::at(mech, t, [&new_q, &v]);
         let mut size = measure.size(&q).max(measure.size(&v));
         // Where nothing is known of the mechanism, the unit is what things are compared with.
-        let most = measure.reach(mech, t, [&new_q, &v], size).unwrap_or(1.0);
+        let most = measure
+            .reach(mech, t, [&new_q, &v], size, self.tolerance)
+            .unwrap_or(1.0);
         if size > 0.0 && size < most {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
             size = size.max(projector.length(t, &new_q, &v));
