@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{fails, output};
 
@@ -53,7 +53,8 @@ fn its_motion_is_shown() {
     fails("animate cart --pictures 1", 2, "from 2 to 100000");
 }
 
-/// The view goes along with what goes much farther than it is large: here all that is drawn, moved by 10 m from picture to picture.
+/// The view goes along with what goes much farther than it is large, above ground that stands still: here all that is declared, moved by
+/// 10 m from picture to picture along a line of 400 m.
 #[test]
 fn a_long_way_is_followed() {
     let out = tempfile::tempdir().expect("directory");
@@ -75,7 +76,11 @@ fn a_long_way_is_followed() {
             let x = picture[place].as_f64().expect("a number");
             picture[place] = (x + 10.0 * k as f64).into();
         }
+        let numbers = picture.as_array_mut().expect("numbers");
+        numbers.extend([0.0, -1.0, 400.0, -1.0].map(Value::from));
     }
+    let ground = json!({ "kind": "line", "numbers": 4, "label": "" });
+    far["shapes"].as_array_mut().expect("shapes").push(ground);
     let (before, rest) = text.split_once("id=\"data\">").expect("data");
     let (_, after) = rest.split_once("</script>").expect("its end");
     std::fs::write(&page, format!("{before}id=\"data\">{far}</script>{after}")).expect("written");
