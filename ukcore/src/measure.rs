@@ -24,7 +24,7 @@ const LEAST: f64 = 1e3 * f64::EPSILON;
 
 /// The shortest rod counts for so much of the longest that no more is asked of it than this share of that, which rounding takes, but for no
 /// more than [`SHORT`].
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
 const SHORT: f64 = 1e-3;
 
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
