@@ -42,6 +42,9 @@ const CLOSE: f64 = 1e-5;
 /// After a near miss, significances fall by no more than this in a step, so that a stage comes near the next one.
 const SEEN: f64 = 0.2;
 
+/// A stage tells nothing of a significance that is so many times less where the run stands than it would be by that of the stage.
+const STEEP: f64 = 8.0;
+
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
@@ -393,8 +396,20 @@ impl Driver<'_> {
 
     /// Refuses a step that is not planned for the position `found`.
     fn judge(&mut self, mut found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
-        let course = &mut self.equations.course;
+        let Equations {
+            course, problem, ..
+        } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
+        let left = course.ahead(found.t);
+        if self.gap.is_some() && found.gap == 0.0 && left > 0.0 {
+            // Where the run stands is known better than a stage, which may lie far off, or be of a step that is far too long.
+            let own = problem.singular(Purpose::Interpolant, Some(here));
+            let own = own.filter(|own| {
+                let nearer = own.significance <= found.significance;
+                own.gap == 0.0 && (nearer || found.rate * left > STEEP * own.significance)
+            });
+            found = own.unwrap_or(found);
+        }
         if let Some(known) = &self.passage.ahead
             && (known.gap, found.gap) == (0.0, 0.0)
             && known.significance < found.significance
