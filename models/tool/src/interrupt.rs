@@ -1,5 +1,6 @@
 //! The signals that ask a program to end (Ctrl-C, and what `kill` sends): they end a run in order.
 
+use std::ops::ControlFlow;
 use std::process;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -40,6 +41,14 @@ impl Interrupt {
     pub fn never() -> Self {
         static NEVER: AtomicBool = AtomicBool::new(false);
         Interrupt(&NEVER)
+    }
+
+    /// Whether a computation goes on: not once the flag is set.
+    pub(crate) fn flow(self) -> ControlFlow<()> {
+        match self.is_set() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 
     /// Whether the user has asked the program to end.

@@ -77,8 +77,8 @@ fn drive(text: &str) -> Result<Drive, String> {
 pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure> {
     let to_stdout = args.csv.as_deref().is_some_and(output::is_stdout);
     let plot = args.plot.as_ref().and_then(|asked| asked.first());
-    let file = args.csv.as_deref().filter(|_| !to_stdout);
-    output::apart(&[("--csv", file), ("--plot", plot.map(Path::new))])?;
+    let plot = plot.map(Path::new);
+    output::apart(&[("--csv", args.csv.as_deref()), ("--plot", plot)])?;
     let ready = args.scene.ready(models)?;
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
@@ -115,10 +115,8 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         },
         swept: found,
     };
-    match args.csv.as_deref() {
-        None => {}
-        Some(_) if to_stdout => output::to_stdout(|out| table(out, &ready, &found))?,
-        Some(path) => write_whole(path, |out| table(out, &ready, &found))?,
+    if let Some(path) = &args.csv {
+        write_whole(path, |out| table(out, &ready, &found))?;
     }
     if to_stdout {
         return Ok(());
@@ -188,30 +186,29 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
             let value = quantity.si(unit);
             value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))
         };
+        let name = &drive.name;
         let [from, mut to] = [si(&drive.ends[0])?, si(&drive.ends[1])?];
         if let Some(step) = &drive.step {
             let step = si(step)?;
             let steps = (to - from) / step;
-            if k > 0 {
-                let message = format!(
-                    "`{}` goes along with `{}`, which alone has a step",
-                    drive.name, asked[0].name
-                );
-                return Err(Failure::Usage(message));
-            }
-            if steps < 0.0 {
-                let message = format!(
-                    "`{}`: steps of {step} lead from {from} away from {to}; give the step the other sign",
-                    drive.name
-                );
-                return Err(Failure::Usage(message));
-            }
-            if !(1.0 - 1e-9..MOST).contains(&steps) {
-                let message = format!(
-                    "`{}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}",
-                    drive.name
-                );
-                return Err(Failure::Usage(message));
+            let refusal = if k > 0 {
+                let first = &asked[0].name;
+                Some(format!(
+                    "`{name}` goes along with `{first}`, which alone has a step"
+                ))
+            } else if steps < 0.0 {
+                Some(format!(
+                    "`{name}`: steps of {step} lead from {from} away from {to}; give the step the other sign"
+                ))
+            } else if !(1.0 - 1e-9..MOST).contains(&steps) {
+                Some(format!(
+                    "`{name}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}"
+                ))
+            } else {
+                None
+            };
+            if let Some(refusal) = refusal {
+                return Err(Failure::Usage(refusal));
             }
             // A last step that rounding puts beyond the end is meant; what is left behind the last one is not swept.
             intervals = (steps * (1.0 + 1e-9)).floor() as usize;

@@ -77,6 +77,16 @@ pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
     lines
 }
 
+/// The least and the greatest of some numbers, of which what is none is passed over; ∞ and −∞ if there is none.
+#[must_use]
+pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+    let values = values.into_iter();
+    values.fold((least, greatest), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
+}
+
 /// The median of some numbers: of two in the middle the larger; nothing if there is none.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {

@@ -11,11 +11,12 @@ use tempfile::NamedTempFile;
 use crate::failure::Failure;
 
 /// A file being written: a temporary one beside it, which takes its name once all is written. A reader sees the old file or the new one,
-/// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
+/// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly. `-` is standard output, of which
+/// each line is handed on at once.
 #[derive(Debug)]
 pub struct WholeFile {
-    /// The name that was asked for; none for standard output.
-    path: Option<PathBuf>,
+    /// The name that was asked for.
+    path: PathBuf,
     kind: Kind,
 }
 
@@ -34,6 +35,7 @@ impl WholeFile {
     pub fn create(path: &Path) -> Result<Self, Failure> {
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let kind = match fs::metadata(&target) {
+            _ if is_stdout(path) => Ok(Kind::Stdout(io::stdout())),
             Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(there) if !there.is_file() => {
                 let file = File::options().write(true).open(&target);
@@ -41,40 +43,35 @@ impl WholeFile {
             }
             _ => temporary(&target).map(|file| Kind::Temporary(BufWriter::new(file), target)),
         };
-        let path = Some(path.to_path_buf());
+        let path = path.to_path_buf();
         match kind {
             Ok(kind) => Ok(WholeFile { path, kind }),
-            Err(error) => Err(failure(path.as_deref(), &error)),
-        }
-    }
-
-    /// Standard output, of which each line is handed on at once.
-    #[must_use]
-    pub fn stdout() -> Self {
-        WholeFile {
-            path: None,
-            kind: Kind::Stdout(io::stdout()),
+            Err(error) => Err(Failure::file(&path, &error)),
         }
     }
 
     /// Writes `bytes` and gives the file its name.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
     pub(crate) fn finish_with(mut self, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
         let done = self.write_all(bytes.as_ref());
-        done.map_err(|e| failure(self.path.as_deref(), &e))?;
+        done.map_err(|e| Failure::file(&self.path, &e))?;
         self.finish()
+    }
+
+    fn out(&mut self) -> &mut dyn Write {
+        match &mut self.kind {
+            Kind::Temporary(file, _) => file,
+            Kind::Direct(file) => file,
+            Kind::Stdout(out) => out,
+        }
     }
 
     /// Ends the file: from here on it stands under its name, whole.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
-    pub fn finish(self) -> Result<(), Failure> {
+    pub fn finish(mut self) -> Result<(), Failure> {
         let done = match self.kind {
-            Kind::Stdout(mut out) => out.flush(),
-            Kind::Direct(mut file) => file.flush(),
+            Kind::Stdout(_) | Kind::Direct(_) => self.flush(),
             Kind::Temporary(file, target) => match file.into_inner() {
                 Ok(file) => {
                     unfinished().retain(|path| path != file.path());
@@ -83,7 +80,7 @@ impl WholeFile {
                 Err(error) => Err(error.into_error()),
             },
         };
-        done.map_err(|e| failure(self.path.as_deref(), &e))
+        done.map_err(|e| Failure::file(&self.path, &e))
     }
 }
 
@@ -105,7 +102,7 @@ pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
     };
     // What is no file, such as /dev/null, takes what all write.
     let files = named.iter().filter_map(|(option, path)| {
-        let place = place((*path)?)?;
+        let place = place(path.filter(|path| !is_stdout(path))?)?;
         (place.is_file() || !place.exists()).then_some((option, place))
     });
     let files: Vec<_> = files.collect();
@@ -120,29 +117,13 @@ pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A failure to write the file `path`, or standard output.
-pub(crate) fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
-    match path {
-        Some(path) => Failure::file(path, error),
-        None => Failure::stdout(error),
-    }
-}
-
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.kind {
-            Kind::Temporary(file, _) => file.write(bytes),
-            Kind::Direct(file) => file.write(bytes),
-            Kind::Stdout(out) => out.write(bytes),
-        }
+        self.out().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.kind {
-            Kind::Temporary(file, _) => file.flush(),
-            Kind::Direct(file) => file.flush(),
-            Kind::Stdout(out) => out.flush(),
-        }
+        self.out().flush()
     }
 }
 

@@ -24,9 +24,11 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+pub use plotters::chart::SeriesLabelPosition as Place;
 pub use plotters::style::RGBColor;
 
 use crate::failure::Failure;
+use crate::numbers::extremes;
 
 /// Okabe and Ito's palette, told apart with every common colour vision; the order puts strong contrasts first.
 pub const COLOURS: [RGBColor; 6] = [
@@ -95,22 +97,14 @@ impl Series {
 }
 
 /// The place of the legend of a [`Chart`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Legend {
     /// Nowhere.
     None,
     /// Above the frame, in two columns.
     Above,
-    /// Within the frame, like those that follow.
-    UpperLeft,
-    /// At the middle of the upper edge.
-    UpperMiddle,
-    /// At the middle of the lower edge.
-    LowerMiddle,
-    /// In the lower left corner.
-    LowerLeft,
-    /// In the lower right corner.
-    LowerRight,
+    /// Within the frame.
+    Within(Place),
 }
 
 /// The division of both axes of a [`Chart`].
@@ -158,7 +152,7 @@ impl Chart {
             y: round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1))),
             series,
             scale: Scale::Linear,
-            legend: Legend::LowerRight,
+            legend: Legend::Within(Place::LowerRight),
             size: (560, 360),
         }
     }
@@ -219,17 +213,12 @@ impl Chart {
         for series in &self.series {
             draw_series(&mut chart, series, self.scale)?;
         }
-        let position = match self.legend {
-            Legend::None | Legend::Above => return Ok(()),
-            Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
-            Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
-            Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
-            Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
-            Legend::LowerRight => SeriesLabelPosition::LowerRight,
+        let Legend::Within(place) = &self.legend else {
+            return Ok(());
         };
         chart
             .configure_series_labels()
-            .position(position)
+            .position(place.clone())
             .margin(8 * PARTS)
             .legend_area_size(30 * PARTS)
             .background_style(WHITE.mix(0.85))
@@ -443,12 +432,8 @@ fn power(exponent: f64) -> String {
 
 /// The smallest range of whole decades that holds all of `values` that are positive.
 pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| *v > 0.0 && v.is_finite())
-        .map(f64::log10)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
+    let values = values.filter(|v| *v > 0.0 && v.is_finite());
+    let (low, high) = extremes(values.map(f64::log10));
     if low > high {
         return (0.1, 1.0);
     }
@@ -459,11 +444,7 @@ pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.
 pub fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| v.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
+    let (low, high) = extremes(values.filter(|v| v.is_finite()));
     if low > high {
         return (0.0, 1.0);
     }
@@ -531,7 +512,7 @@ mod tests {
                 Series::reference("free fall", vec![(0.0, 0.0), (2.0, 5.0)]),
             ],
             scale: Scale::Linear,
-            legend: Legend::LowerRight,
+            legend: Legend::Within(Place::LowerRight),
             size: (480, 300),
         };
         let svg = chart.svg().expect("figure");

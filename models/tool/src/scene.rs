@@ -2,7 +2,6 @@
 
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
-use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
 use crate::command::find;
@@ -132,23 +131,13 @@ impl Start {
     /// What to say of an angle called `name` for which a bare number is given, if `list` has it in degrees.
     pub(crate) fn angle(&self, entry: &Entry, name: &str, given: &Quantity) -> Option<String> {
         let value = given.bare()?;
-        let (default, unit) = self.preset(entry, name)?;
+        let start = self.spec(entry).ok()?;
+        let Setting { default, unit, .. } = setting(entry, name, start).ok()?;
         in_degrees(default, unit)?;
         let number = short(value, 8);
         in_degrees(value, unit).is_none().then(|| {
             format!("`{name}` is {number} rad, as bare numbers are; for degrees write `{name}={number}deg`")
         })
-    }
-
-    /// The default of the parameter or option called `name`, and its unit.
-    fn preset(&self, entry: &Entry, name: &str) -> Option<(f64, &'static str)> {
-        let mut options = self.spec(entry).ok().flatten()?.options.iter();
-        if let Some(option) = options.find(|option| option.name == name) {
-            return Some((option.default, option.unit));
-        }
-        let spec = entry.mechanism.spec();
-        let place = *spec.parameter_indices(name).ok()?.first()?;
-        Some((spec.params[place].default, spec.params[place].unit))
     }
 
     /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
@@ -164,7 +153,7 @@ impl Start {
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
-            let (option, unit) = setting(entry, name, start)?;
+            let Setting { option, unit, .. } = setting(entry, name, start)?;
             let value = quantity.si(unit);
             let value = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             match option {
@@ -180,7 +169,7 @@ impl Start {
     /// # Errors
     /// [`Failure::Usage`] for unknown names.
     pub(crate) fn unit(&self, entry: &Entry, name: &str) -> Result<&'static str, Failure> {
-        Ok(setting(entry, name, self.spec(entry)?)?.1)
+        Ok(setting(entry, name, self.spec(entry)?)?.unit)
     }
 
     fn spec(&self, entry: &Entry) -> Result<Option<&'static StartSpec>, Failure> {
@@ -250,30 +239,28 @@ fn once(option: &str, given: &[(String, Quantity)]) -> Result<(), Failure> {
     }
 }
 
-/// Whether `name` is an option of the start, not a parameter, and its unit.
-fn setting(
-    entry: &Entry,
-    name: &str,
-    start: Option<&StartSpec>,
-) -> Result<(bool, &'static str), Failure> {
+/// What `--set` can name.
+struct Setting {
+    /// An option of the start, not a parameter.
+    option: bool,
+    default: f64,
+    unit: &'static str,
+}
+
+/// The option or parameter called `name`; of a family or row named without index its first member.
+fn setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Result<Setting, Failure> {
     let mut offered = start.map_or(&[][..], |s| s.options).iter();
-    if let Some(option) = offered.find(|o| o.name == name) {
-        return Ok((true, option.unit));
-    }
-    match unit_of(entry.mechanism.spec(), name) {
-        Some(unit) => Ok((false, unit)),
-        None => Err(unknown_setting(entry, name, start)),
-    }
-}
-
-/// The unit of a parameter, or of a family or row named without index.
-fn unit_of(spec: &Spec, name: &str) -> Option<&'static str> {
-    let indices = spec.parameter_indices(name).ok()?;
-    indices.first().map(|p| spec.params[*p].unit)
-}
-
-fn family(name: &str) -> &str {
-    name.split_once('[').map_or(name, |(family, _)| family)
+    let spec = entry.mechanism.spec();
+    let first = || Some(&spec.params[*spec.parameter_indices(name).ok()?.first()?]);
+    let option = offered.find(|o| o.name == name);
+    let option = option.map(|o| (true, o.default, o.unit));
+    let found = option.or_else(|| first().map(|p| (false, p.default, p.unit)));
+    let (option, default, unit) = found.ok_or_else(|| unknown_setting(entry, name, start))?;
+    Ok(Setting {
+        option,
+        default,
+        unit,
+    })
 }
 
 fn unknown_setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Failure {
@@ -286,7 +273,8 @@ fn unknown_setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Fail
     }
     let params = || entry.mechanism.spec().params.iter().map(|p| p.name);
     let options = start.map_or(&[][..], |s| s.options).iter().map(|o| o.name);
-    let families = params().filter(|p| p.ends_with("[0]")).map(family);
+    let families = params().filter(|p| p.ends_with("[0]"));
+    let families = families.filter_map(|p| Some(p.split_once('[')?.0));
     let mut known = options.chain(params()).chain(families);
     Error::unknown_name("parameter or start option", name, &mut known).into()
 }

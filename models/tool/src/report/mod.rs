@@ -31,7 +31,7 @@ use crate::units::Quantity;
 use export::Report;
 use study::Study;
 
-pub(crate) use truth::{distance, grow, scale, stacked};
+pub(crate) use truth::{distance, grow, scale, states};
 
 /// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]

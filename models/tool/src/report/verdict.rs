@@ -1,7 +1,5 @@
 //! What follows from the figures: which combination to take for which accuracy, and what it costs.
 
-use crate::numbers::median;
-
 use super::study::{Curve, LongRun, Study};
 use super::variants::{VARIANTS, Variant};
 
@@ -158,8 +156,6 @@ pub(super) struct Standing {
     pub(super) missed: usize,
     /// The largest ratio of its time to the least, with motion and accuracy.
     pub(super) worst: Option<(f64, String, f64)>,
-    /// Ratios of its time to the least: the median.
-    pub(super) median: Option<f64>,
 }
 
 /// Looks at the default combination.
@@ -169,9 +165,7 @@ pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
         best: 0,
         missed: 0,
         worst: None,
-        median: None,
     };
-    let mut ratios = Vec::new();
     for study in studies {
         for goal in GOALS {
             let Some(choice) = choice(study, goal, among) else {
@@ -185,13 +179,11 @@ pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
             };
             let ratio = cost.seconds / choice.least;
             found.best += usize::from(ratio <= TIE);
-            ratios.push(ratio);
             if found.worst.as_ref().is_none_or(|w| ratio > w.0) {
                 found.worst = Some((ratio, study.name.clone(), goal));
             }
         }
     }
-    found.median = median(ratios);
     found
 }
 

@@ -13,7 +13,7 @@ use crate::command;
 use crate::failure::Failure;
 use crate::motion;
 use crate::numbers::short;
-use crate::report::{distance, grow, scale, stacked};
+use crate::report::{distance, grow, scale, states};
 use crate::scene::{Ready, Scene};
 
 /// The command-line arguments of the command `stability` of a model, to be flattened into a parser of `clap`.
@@ -292,11 +292,7 @@ impl Motion<'_> {
             .tolerance(way.tolerance)
             .max_steps(way.steps)
             .at(times);
-        let run = effort.run(simulation, until)?;
-        Ok(run
-            .samples()
-            .map(|sample| stacked(&sample.to_state()))
-            .collect())
+        Ok(states(&effort.run(simulation, until)?))
     }
 
     /// By how much the motion magnifies a small change at `place`, a state of it: its states without one are known, with their sizes.

@@ -8,6 +8,8 @@ use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, 
 
 /// index.html.
 pub(super) fn html(report: &Stability<'_>) -> String {
+    let cases = html! { (picture()) (summary(&report.cases)) };
+    let every = html! { @for row in &report.cases { (values(row)) } };
     let page = Page {
         title: "Stiff and extreme cases",
         head: head(report),
@@ -16,18 +18,8 @@ pub(super) fn html(report: &Stability<'_>) -> String {
             ("stability.csv", "CSV"),
         ],
         sections: vec![
-            Section {
-                id: "cases",
-                link: "Cases",
-                title: "Cases",
-                body: html! { (picture()) (summary(&report.cases)) },
-            },
-            Section {
-                id: "values",
-                link: "Every value",
-                title: "Every value",
-                body: html! { @for row in &report.cases { (values(row)) } },
-            },
+            Section::new("cases", "Cases", "Cases", cases),
+            Section::new("values", "Every value", "Every value", every),
         ],
         foot: html! {},
     };

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use uktool::failure::Failure;
 use uktool::html::fixed;
-use uktool::plot::{COLOURS, Chart, Legend, RGBColor, Series, round_range};
+use uktool::plot::Legend::{self, Within};
+use uktool::plot::{COLOURS, Chart, Place, RGBColor, Series, round_range};
 
 use super::chain::Chain;
 use super::fish::{self, Fish};
@@ -54,24 +55,30 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
             let chart = chart(label_of_y, (0.0, FISH_TIME), curves, legend);
             charts.push((format!("fish-{name}-{kind}"), chart));
         };
-        add("speed", SPEED, |f| &f.speed, Legend::LowerRight);
+        add("speed", SPEED, |f| &f.speed, Within(Place::LowerRight));
         // Those of the amplitude are Figs. 13-16, in one range.
         if k > 0 {
             add(
                 "acceleration",
                 ACCELERATION,
                 |f| &f.acceleration,
-                Legend::LowerMiddle,
+                Within(Place::LowerMiddle),
             );
         }
-        add("swing", SWING, |f| &f.swing, Legend::UpperLeft);
+        add("swing", SWING, |f| &f.swing, Within(Place::UpperLeft));
     }
     // The instability that the paper does not mention.
     let across = horizontal("across (90°)", 90.0, WHOLE_RUN);
-    let turning = whole_run(fishes, SWING, across, |f| &f.swing, Legend::UpperLeft);
+    let turning = whole_run(
+        fishes,
+        SWING,
+        across,
+        |f| &f.swing,
+        Within(Place::UpperLeft),
+    );
     charts.push(("fish-turning".to_owned(), turning));
     let zero = horizontal("", 0.0, WHOLE_RUN);
-    let speed = whole_run(fishes, SPEED, zero, |f| &f.speed, Legend::LowerRight);
+    let speed = whole_run(fishes, SPEED, zero, |f| &f.speed, Within(Place::LowerRight));
     charts.push(("fish-turning-speed".to_owned(), speed));
     charts
         .into_iter()
@@ -80,18 +87,15 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
 }
 
 /// A chart over time whose vertical range holds all of its curves.
-fn chart(y_label: &str, x: (f64, f64), curves: Vec<Series>, legend: Legend) -> Chart {
-    let series = curves.into_iter().map(|s| cut(s, x)).collect();
+fn chart(y_label: &str, x: (f64, f64), mut series: Vec<Series>, legend: Legend) -> Chart {
+    // What lies outside of the horizontal range would still be written to the file.
+    for curve in &mut series {
+        curve.points.retain(|p| (x.0..=x.1).contains(&p.0));
+    }
     Chart {
         legend,
         ..Chart::new(TIME, y_label, x, series)
     }
-}
-
-/// The points within the horizontal range: what lies outside would still be written to the file.
-fn cut(mut series: Series, (from, to): (f64, f64)) -> Series {
-    series.points.retain(|(x, _)| (from..=to).contains(x));
-    series
 }
 
 /// The chain at several times, both axes of one scale.
@@ -99,23 +103,16 @@ fn falling(chain: &Chain) -> Chart {
     let last = chain.snapshots.len().saturating_sub(1);
     let mut series = vec![Series::reference("path of the tip", chain.path.clone())];
     for (k, (t, points)) in chain.snapshots.iter().enumerate() {
-        let turn = k == last;
+        let (colour, label) = if k == last {
+            (COLOURS[1], format!("t = {} s: the turn", fixed(*t, 3)))
+        } else {
+            let part = k as f64 / last.max(1) as f64;
+            (shade(part), format!("t = {} s", fixed(*t, 1)))
+        };
         series.push(Series {
-            colour: if turn {
-                COLOURS[1]
-            } else {
-                shade(k as f64 / last.max(1) as f64)
-            },
+            colour,
             dots: 2,
-            ..Series::new(
-                if turn {
-                    format!("t = {} s: the turn", fixed(*t, 3))
-                } else {
-                    format!("t = {} s", fixed(*t, 1))
-                },
-                0,
-                points.clone(),
-            )
+            ..Series::new(label, 0, points.clone())
         });
     }
     // The legend stands inside of the first U, with some room above.
@@ -126,7 +123,7 @@ fn falling(chain: &Chain) -> Chart {
     let height = frame_y + (f64::from(width - frame_x) * (depth + above) / (x.1 - x.0)) as u32;
     Chart {
         y: (depth, -above),
-        legend: Legend::UpperMiddle,
+        legend: Within(Place::UpperMiddle),
         size: (width, height),
         ..Chart::new("x (m)", "y, downwards (m)", x, series)
     }
@@ -157,7 +154,7 @@ fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
                 horizontal("g", GRAVITY, x),
                 Series::new(format!("x0 = {} m", c.row.x0), 0, c.acceleration.clone()),
             ];
-            let chart = chart(TIP, x, series, Legend::LowerLeft);
+            let chart = chart(TIP, x, series, Within(Place::LowerLeft));
             (format!("fig{}", c.row.paper.figure), Chart { y, ..chart })
         })
         .collect()
@@ -166,51 +163,31 @@ fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
 fn tip_accelerations_together(chains: &[Chain]) -> Chart {
     let x = (0.0, 1.9);
     let mut series = vec![horizontal("g", GRAVITY, x)];
-    series.extend(
-        chains
-            .iter()
-            .enumerate()
-            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, c.acceleration.clone())),
-    );
+    series.extend(of_each(chains, |c| c.acceleration.clone()));
     // What the paper speaks of, accelerations above g, would be a thin line next to the peaks.
-    let chart = chart(TIP, x, series, Legend::LowerLeft);
-    Chart {
-        y: (-30.0, 30.0),
-        series: chart
-            .series
-            .into_iter()
-            .map(|s| clip(s, (-30.0, 30.0)))
-            .collect(),
-        ..chart
+    let mut chart = chart(TIP, x, series, Within(Place::LowerLeft));
+    chart.y = (-30.0, 30.0);
+    // Each up to where it first leaves the vertical range.
+    for Series { points, .. } in &mut chart.series {
+        let outside = points.iter().position(|(_, y)| y.abs() > 30.0);
+        points.truncate(outside.unwrap_or(points.len()));
     }
-}
-
-/// The curve up to where it first leaves the vertical range.
-fn clip(mut series: Series, (low, high): (f64, f64)) -> Series {
-    let end = series
-        .points
-        .iter()
-        .position(|(_, y)| !(low..=high).contains(y))
-        .unwrap_or(series.points.len());
-    series.points.truncate(end);
-    series
+    chart
 }
 
 /// Fall of the tip beyond that of a free body, up to the turn.
 fn lead(chains: &[Chain]) -> Chart {
     let x = (0.0, 1.9);
     let mut series = vec![horizontal("free fall", 0.0, x)];
-    series.extend(chains.iter().enumerate().map(|(k, c)| {
-        let points = before_turn(c)
-            .map(|(t, y)| (t, y - 0.5 * GRAVITY * t * t))
-            .collect();
-        Series::new(format!("x0 = {} m", c.row.x0), k, points)
+    series.extend(of_each(chains, |c| {
+        let lead = |(t, y)| (t, y - 0.5 * GRAVITY * t * t);
+        before_turn(c).map(lead).collect()
     }));
     chart(
         "fall of the tip less ½ g t² (m)",
         x,
         series,
-        Legend::UpperLeft,
+        Within(Place::UpperLeft),
     )
 }
 
@@ -221,22 +198,23 @@ fn fall(chains: &[Chain]) -> Chart {
         .map(|t| (t, 0.5 * GRAVITY * t * t))
         .collect();
     let mut series = vec![Series::reference("free fall, ½ g t²", free)];
-    series.extend(
-        chains
-            .iter()
-            .enumerate()
-            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, before_turn(c).collect())),
-    );
+    series.extend(of_each(chains, |c| before_turn(c).collect()));
     let chart = chart(
         "fall of the tip y1, downwards (m)",
         x,
         series,
-        Legend::LowerLeft,
+        Within(Place::LowerLeft),
     );
     Chart {
         y: (chart.y.1, chart.y.0),
         ..chart
     }
+}
+
+/// A curve of each chain, labelled with its initial separation.
+fn of_each(chains: &[Chain], curve: impl Fn(&Chain) -> Curve) -> impl Iterator<Item = Series> {
+    let chains = chains.iter().enumerate();
+    chains.map(move |(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, curve(c)))
 }
 
 fn before_turn(chain: &Chain) -> impl Iterator<Item = (f64, f64)> {

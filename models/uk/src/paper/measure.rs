@@ -1,5 +1,7 @@
 //! Numbers taken from curves: minima, and the oscillation in a drifting signal.
 
+use uktool::numbers::extremes;
+
 /// (√5 − 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -115,9 +117,7 @@ fn solve(mut rows: [[f64; TERMS + 1]; TERMS]) -> Option<[f64; TERMS]> {
 
 /// Largest minus smallest value.
 pub(super) fn spread(values: impl Iterator<Item = f64>) -> f64 {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-        (l.min(v), h.max(v))
-    });
+    let (low, high) = extremes(values);
     high - low
 }
 

@@ -18,7 +18,7 @@ use crate::scene::Ready;
 
 use super::clock;
 use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
-use super::truth::{Truth, stacked};
+use super::truth::{Truth, stacked, states};
 use super::variants::{VARIANTS, Variant};
 
 /// No run may take longer, s; a combination ends with the setting at which one would.
@@ -256,10 +256,6 @@ impl Subject<'_> {
         let (run, seconds) = self.watched(self.simulation(variant, knob), truth.end())?;
         let times = truth.times.clone();
         let (sampled, _) = self.watched(self.simulation(variant, knob).at(times), truth.end())?;
-        let mut error_along: f64 = 0.0;
-        for (k, sample) in sampled.samples().enumerate() {
-            error_along = error_along.max(truth.errors(k, &stacked(&sample.to_state())).scaled);
-        }
         let Some(end) = run.last() else {
             return Err(Trouble::NoNumber);
         };
@@ -283,7 +279,7 @@ impl Subject<'_> {
             fallbacks: work.fallbacks,
             error: error.scaled,
             error_in_units: error.absolute,
-            error_along: error_along.max(error.scaled),
+            error_along: truth.largest(&states(&sampled)).max(error.scaled),
             off: nearest.as_ref().map(|n| truth.distance(&end, n).scaled),
             within: nearest.as_ref().map(|n| truth.errors(last, n).scaled),
             drift,
