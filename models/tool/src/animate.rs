@@ -71,7 +71,6 @@ struct Shape<'a> {
     label: &'a str,
 }
 
-/// A run as the page has it.
 #[derive(Serialize)]
 struct Shown {
     label: String,

@@ -53,7 +53,6 @@ impl Columns {
     }
 
     /// All outputs and integrals; where there are none, all coordinates.
-    #[must_use]
     pub(crate) fn of_interest(mechanism: &Prepared) -> Self {
         let told = |source: &Source| matches!(source, Source::Output(_) | Source::Integral(_));
         let all = all(mechanism);
@@ -76,7 +75,6 @@ impl Columns {
     }
 
     /// The units of the quantities; nothing where none is known.
-    #[must_use]
     pub(crate) fn units(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
         let unit = |source: &Source| match *source {
@@ -95,13 +93,11 @@ impl Columns {
     }
 
     /// The names of the quantities, with units behind where these are known.
-    #[must_use]
     pub(crate) fn labels(&self) -> Vec<String> {
         self.names().zip(self.units()).map(labelled).collect()
     }
 
     /// The same quantities of `mechanism`, which has other parameters.
-    #[must_use]
     pub(crate) fn with(&self, mechanism: &Prepared) -> Self {
         Columns {
             mechanism: mechanism.clone(),
@@ -110,7 +106,6 @@ impl Columns {
     }
 
     /// The values of the quantities at `sample`.
-    #[must_use]
     pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {
         let Sample { t, q, v, integrals } = sample;
         let (mechanism, spec) = (&self.mechanism, self.mechanism.spec());

@@ -114,9 +114,6 @@ impl Curves {
     }
 
     /// Draws them, in panels of curves that are alike in what they are over and in their units.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] where the file cannot be written.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let rows = self.rows.finish();
         let (over, of) = (self.over.labels(), self.of.labels());

@@ -10,13 +10,11 @@ pub fn count(number: usize, thing: &str) -> String {
 }
 
 /// The number of fifteen digits next to `value`: 0.3 for 0.1 + 2·0.1, as is meant by who writes fewer.
-#[must_use]
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 /// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
-#[must_use]
 pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
     let text = match in_degrees(value, unit) {
         Some(degrees) => format!("{name} = {degrees} deg"),
@@ -58,7 +56,6 @@ pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
 const LINE: usize = 84;
 
 /// Entries with commas between them, in lines as long as reads well where the entries allow it.
-#[must_use]
 pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for entry in entries {

@@ -29,9 +29,6 @@ const TEXT: [&str; 4] = ["start", "method", "stabilisation", "error"];
 const WHOLE: [&str; 5] = ["member", "steps", "rejected", "evaluations", "fallbacks"];
 
 /// Writes the `table`, as `sweep` leaves it, to `out`. What a row does not have is null.
-///
-/// # Errors
-/// [`Failure::Failed`] where the table cannot be read, or the file not be written.
 pub(crate) fn write(table: &Path, out: &Path) -> Result<(), Failure> {
     let broken = |e: &dyn Display| Failure::Failed(format!("cannot read {}: {e}", table.display()));
     let file = File::open(table).map_err(|e| broken(&e))?;

@@ -165,9 +165,6 @@ impl Start {
     }
 
     /// The unit of the parameter or option called `name`.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] for unknown names.
     pub(crate) fn unit(&self, entry: &Entry, name: &str) -> Result<&'static str, Failure> {
         Ok(setting(entry, name, self.spec(entry)?)?.unit)
     }

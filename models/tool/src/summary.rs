@@ -120,9 +120,6 @@ impl Summary<'_> {
     }
 
     /// Writes the summary for reading.
-    ///
-    /// # Errors
-    /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let tolerance = self.motion.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));

@@ -41,7 +41,6 @@ impl Quantity {
     }
 
     /// This one, a bare number, in the unit of `others` if they have one and the same; 0 has any.
-    #[must_use]
     pub(crate) fn in_unit_of(self, others: &[Quantity]) -> Self {
         let mut units = others.iter().filter(|q| !q.is_zero()).map(|q| &q.unit);
         let unit = units.next().filter(|unit| units.all(|u| u == *unit));
@@ -55,9 +54,6 @@ impl Quantity {
     }
 
     /// Refuses numbers of which some have a unit and some have none: those would be in SI, which nobody means. 0 is 0 in any unit.
-    ///
-    /// # Errors
-    /// What to do.
     pub(crate) fn alike(values: &[Quantity], text: &str) -> Result<(), String> {
         let told: Vec<_> = values.iter().filter(|q| !q.is_zero()).collect();
         let bare = told.iter().filter(|q| q.unit.is_none()).count();

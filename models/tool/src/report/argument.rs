@@ -11,11 +11,8 @@ use crate::numbers::median;
 /// A default and what the figures say of it.
 #[derive(Debug, Clone)]
 pub(super) struct Argument {
-    /// The default.
     pub(super) default: &'static str,
-    /// The figures.
     pub(super) figures: Markup,
-    /// They speak for it.
     pub(super) supported: bool,
 }
 

@@ -30,9 +30,6 @@ const BY_EVALUATIONS: [&str; 6] = [
 pub(super) type Picture = (String, String);
 
 /// Both pictures of a motion.
-///
-/// # Errors
-/// [`Failure::Failed`] if one cannot be drawn.
 pub(super) fn of(study: &Study) -> Result<[Picture; 2], Failure> {
     let time = chart(study, &BY_TIME, TIME, |f| f.seconds);
     let evaluations = chart(study, &BY_EVALUATIONS, EVALUATIONS, |f| {

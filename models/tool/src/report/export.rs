@@ -7,7 +7,6 @@ use super::study::Study;
 /// All that is measured.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Report {
-    /// What the numbers are.
     pub(super) about: String,
     /// The program that measured, and what it was asked for: only its own numbers are taken over into a later report.
     pub(super) program: String,
@@ -21,7 +20,6 @@ pub(super) struct Report {
     pub(super) seconds: f64,
     /// What could not be measured, and why.
     pub(super) failures: Vec<(String, String)>,
-    /// One for each motion.
     pub(super) studies: Vec<Study>,
 }
 

@@ -111,7 +111,6 @@ pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
     }
 }
 
-/// A motion to measure.
 struct Job<'a> {
     name: String,
     entry: &'a Entry,
@@ -197,7 +196,6 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
 }
 
 impl Job<'_> {
-    /// Measures it.
     fn study(
         &self,
         quick: bool,

@@ -25,7 +25,6 @@ const INTERVALS: u32 = 12;
 /// States along a motion, and the sizes of its coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Truth {
-    /// Where the states come from.
     pub(super) source: String,
     /// Largest error that the states may have, in the norm of [`Truth::errors`].
     pub(super) floor: f64,
@@ -63,9 +62,6 @@ impl Truth {
 
     /// The best that there is for a motion to `end`: what is shipped; what is computed where that is known better by far and agrees with
     /// what is shipped, or where nothing is.
-    ///
-    /// # Errors
-    /// What [`Truth::computed`] reports, where nothing is shipped.
     pub(super) fn of(
         mechanism: &Prepared,
         start: &State,
@@ -94,9 +90,6 @@ impl Truth {
 
     /// By DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another method differs is
     /// told.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the model.
     pub(super) fn computed(
         mechanism: &Prepared,
         start: &State,
@@ -149,17 +142,14 @@ impl Truth {
         states.iter().enumerate().map(scaled).fold(0.0, f64::max)
     }
 
-    /// End of the motion.
     pub(super) fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    /// Number of the last state.
     pub(super) fn last(&self) -> usize {
         self.times.len().saturating_sub(1)
     }
 
-    /// (q, q̇) number `index`.
     pub(super) fn state(&self, index: usize) -> &[f64] {
         &self.states[index]
     }

@@ -23,19 +23,16 @@ pub(super) enum Engine {
     Rattle,
 }
 
-/// A combination.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Variant {
     /// Its name in JSON and CSV.
     pub(super) name: &'static str,
     /// Its name on the page.
     pub(super) label: &'static str,
-    /// The method.
     pub(super) engine: Engine,
     /// The formula: [`Formula::Auto`] is the straight line where there is one; none is the rank-revealing solve of eq. 13, or of eq. 19
     /// where M is singular.
     pub(super) formula: Option<Formula>,
-    /// The stabilisation.
     pub(super) stabilisation: Stabilisation,
     /// What is done about kinks and jumps.
     pub(super) switching: Switching,

@@ -18,9 +18,7 @@ pub(super) const DEFAULT_TOLERANCE: f64 = 1e-9;
 pub(super) struct Cost {
     /// Tolerance, or step in s.
     pub(super) knob: f64,
-    /// Time, s.
     pub(super) seconds: f64,
-    /// Evaluations.
     pub(super) evaluations: f64,
 }
 
@@ -64,9 +62,7 @@ pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
 /// A combination recommended for an accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Choice {
-    /// The combination.
     pub(super) variant: &'static Variant,
-    /// What the accuracy costs with it.
     pub(super) cost: Cost,
     /// The least time by any combination, s.
     pub(super) least: f64,
@@ -101,7 +97,6 @@ pub(super) fn choice(study: &Study, goal: f64, among: Among) -> Option<Choice> {
 /// A row of the table of recommendations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tally {
-    /// The combination.
     pub(super) variant: &'static Variant,
     /// Motions for which it is the one to take among those that keep the constraints, by accuracy.
     pub(super) kept: [usize; GOALS.len()],
@@ -158,7 +153,6 @@ pub(super) struct Standing {
     pub(super) worst: Option<(f64, String, f64)>,
 }
 
-/// Looks at the default combination.
 pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
     let mut found = Standing {
         cases: 0,

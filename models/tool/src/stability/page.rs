@@ -6,7 +6,6 @@ use super::Stability;
 use super::case::{Class, Point, Row};
 use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, table};
 
-/// index.html.
 pub(super) fn html(report: &Stability<'_>) -> String {
     let cases = html! { (picture()) (summary(&report.cases)) };
     let every = html! { @for row in &report.cases { (values(row)) } };

@@ -29,9 +29,6 @@ fn look(class: Class) -> (RGBColor, &'static str) {
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// The picture as the text of an SVG file.
-///
-/// # Errors
-/// [`Failure::Failed`] if the drawing library fails.
 pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     let height = HEAD + PITCH * rows.len() as i32 + 10;
     svg((WIDTH as u32, height as u32), 1, |area| {

@@ -33,9 +33,6 @@ const SWING: &str = "swing angle θ1 (°)";
 const TIP: &str = "tip acceleration ÿ1 (m/s²)";
 
 /// All figures.
-///
-/// # Errors
-/// [`Failure::Failed`] if one cannot be drawn.
 pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure> {
     let mut charts: Vec<(String, Chart)> = Vec::new();
     if let Some(first) = chains.first() {

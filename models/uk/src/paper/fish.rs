@@ -151,9 +151,6 @@ pub(super) fn film() -> Result<String, Failure> {
 }
 
 /// Runs the fish with `gait`.
-///
-/// # Errors
-/// [`Failure::Failed`] if the integration fails.
 pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     let name = format!("fish-a{}-w{}pi-phi{}", gait.a3, gait.omega_pi, gait.phi_deg);
     let omega = gait.omega_pi * PI;

@@ -8,9 +8,6 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Place and value of the least of `f` between `a` and `b`, by golden-section search; `f` has one minimum there.
 ///
 /// The bracket shrinks to √ε of its place: closer than that a smooth f differs by rounding only.
-///
-/// # Errors
-/// What `f` reports.
 pub(super) fn minimise<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     mut a: f64,

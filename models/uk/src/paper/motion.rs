@@ -59,9 +59,6 @@ pub(super) struct RunRow {
 
 impl Motion {
     /// Integrates `mechanism` from `start` to `until`, with an event.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the run.
     pub(super) fn new(
         name: &str,
         mechanism: &Prepared,
@@ -103,17 +100,11 @@ impl Motion {
     }
 
     /// The state at `t`.
-    ///
-    /// # Errors
-    /// What [`Trajectory::at`] reports.
     pub(super) fn state(&self, t: f64) -> Result<State, Failure> {
         Ok(self.trajectory.at(t)?)
     }
 
     /// q̈ at `t`.
-    ///
-    /// # Errors
-    /// What [`Trajectory::at`] and [`Solver::acceleration`] report.
     pub(super) fn acceleration(&mut self, t: f64) -> Result<Vec<f64>, Failure> {
         let state = self.state(t)?;
         let mut out = vec![0.0; state.q.len()];
@@ -123,9 +114,6 @@ impl Motion {
     }
 
     /// The samples as CSV.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] if they cannot be formatted.
     pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
         let mut text = Vec::new();
         let written = self.trajectory.write_csv(&mut text);

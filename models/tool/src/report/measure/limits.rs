@@ -17,7 +17,6 @@ const NUDGE: f64 = 1e-8;
 const DIRECTIONS: usize = 8;
 
 impl Subject<'_> {
-    /// Measures them.
     pub(super) fn limits(&self) -> Limits {
         let options = |formula, factor: f64| SolverOptions {
             formula,

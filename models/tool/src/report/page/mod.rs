@@ -16,7 +16,6 @@ use super::study::Study;
 use super::variants::Variant;
 use super::verdict::{self, Among, DEFAULT_TOLERANCE, TIE};
 
-/// index.html.
 pub(super) fn html(report: &Report) -> String {
     let section = Section::new;
     let motions = html! { @for study in &report.studies { (motion::motion(study)) } };

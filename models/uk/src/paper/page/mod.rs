@@ -10,7 +10,6 @@ use super::Paper;
 use super::claims::{STANDARD, Verdict};
 use super::motion::RunRow;
 
-/// index.html.
 pub(super) fn html(paper: &Paper) -> String {
     let section = Section::new;
     let page = Page {
