@@ -84,7 +84,6 @@ struct Shown {
 }
 
 /// A run whose pictures are taken while it is computed.
-#[derive(Debug)]
 pub(crate) struct Film {
     mechanism: Prepared,
     label: String,
@@ -92,7 +91,6 @@ pub(crate) struct Film {
     frames: Thinned<Frame>,
 }
 
-#[derive(Debug)]
 struct Frame {
     t: f64,
     picture: Vec<f32>,

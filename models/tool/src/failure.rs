@@ -59,6 +59,11 @@ impl Failure {
         }
     }
 
+    /// What is wrong with the value of the setting or option called `name`.
+    pub(crate) fn value(name: &str) -> impl Fn(String) -> Self {
+        move |error| Failure::Usage(format!("`{name}`: {error}"))
+    }
+
     /// The failure that an error in writing standard output is; none, if its reader is gone.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {

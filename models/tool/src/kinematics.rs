@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
-use ukcore::{Effort, Kinematics, Prepared, State, kinematics as swept};
+use ukcore::{Effort, Kinematics, State, kinematics as swept};
 
 use crate::columns::{Columns, labelled};
 use crate::command;
@@ -82,11 +82,9 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let ready = args.scene.ready(models)?;
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
-    let speed = args.speed.as_ref().map(|speed| {
-        let speed = speed.si_rate(unit(&ready, name));
-        speed.map_err(|e| Failure::Usage(format!("`--speed`: {e}")))
-    });
-    let speed = speed.transpose()?;
+    let speed = args.speed.as_ref();
+    let speed = speed.map(|speed| speed.si_rate(unit(&ready, name)));
+    let speed = speed.transpose().map_err(Failure::value("--speed"))?;
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| over(&ready, name, asked));
     let hold = args.scene.start.place.held();
@@ -101,18 +99,27 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         return Err(Failure::Failed(message));
     }
     if let Some(mut curves) = curves.transpose()? {
-        found
-            .postures
-            .iter()
-            .for_each(|p| curves.add(Sample::from(&p.state)));
+        let states = found.postures.iter().map(|p| Sample::from(&p.state));
+        states.for_each(|sample| curves.add(sample));
         curves.finish()?;
     }
     let on: Vec<&str> = args.effort.iter().map(String::as_str).collect();
+    let efforts = match on.is_empty() {
+        true => vec![Vec::new(); found.postures.len()],
+        false => found.efforts(&on)?,
+    };
+    let spec = ready.mechanism.spec();
+    let named = efforts[0].iter().flat_map(|e| {
+        let coordinate = spec.coordinate_index(e.name);
+        let unit = units::effort(coordinate.map_or("", |j| spec.coordinate_unit(j)));
+        let watt = unit.as_ref().map_or("", |_| "W").to_owned();
+        let pair = [("effort", unit.unwrap_or_default()), ("power", watt)];
+        pair.map(|(what, unit)| (format!("{what}({})", e.name), unit))
+    });
+    let numbers = |of: &Vec<Effort>| of.iter().flat_map(|e| [e.effort, e.power]).collect();
     let found = Found {
-        efforts: match on.is_empty() {
-            true => vec![Vec::new(); found.postures.len()],
-            false => found.efforts(&on)?,
-        },
+        efforts: named.collect(),
+        values: efforts.iter().map(numbers).collect(),
         swept: found,
     };
     if let Some(path) = &args.csv {
@@ -124,32 +131,12 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
 }
 
-/// Postures and limits, and of each posture the efforts asked for.
+/// Postures and limits, and of each posture the efforts and powers asked for.
 struct Found {
     swept: Kinematics,
-    efforts: Vec<Vec<Effort>>,
-}
-
-impl Found {
-    fn effort_names(&self) -> impl Iterator<Item = String> {
-        let efforts = self.efforts.first().into_iter().flatten();
-        efforts.flat_map(|e| ["effort", "power"].map(|what| format!("{what}({})", e.name)))
-    }
-
-    /// The same with units, where these are known.
-    fn effort_labels(&self, mechanism: &Prepared) -> Vec<String> {
-        let spec = mechanism.spec();
-        let units = self.efforts.first().into_iter().flatten().flat_map(|e| {
-            let coordinate = spec
-                .coordinate_index(e.name)
-                .map(|j| spec.coordinate_unit(j));
-            match units::effort(coordinate.unwrap_or("")) {
-                Some(unit) => [unit, "W".to_owned()],
-                None => [const { String::new() }; 2],
-            }
-        });
-        self.effort_names().zip(units).map(labelled).collect()
-    }
+    /// Their names and units.
+    efforts: Vec<(String, String)>,
+    values: Vec<Vec<f64>>,
 }
 
 /// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
@@ -182,10 +169,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
     let mut intervals = INTERVALS;
     for (k, drive) in asked.iter().enumerate() {
         let unit = unit(ready, &drive.name);
-        let si = |quantity: &Quantity| {
-            let value = quantity.si(unit);
-            value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))
-        };
+        let si = |quantity: &Quantity| quantity.si(unit).map_err(Failure::value(&drive.name));
         let name = &drive.name;
         let [from, mut to] = [si(&drive.ends[0])?, si(&drive.ends[1])?];
         if let Some(step) = &drive.step {
@@ -229,14 +213,13 @@ fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()
     head.extend(coords().map(|name| format!("dot({name})")));
     head.extend(spec.outputs.iter().map(|o| o.name.to_owned()));
     head.extend(coords().map(|name| format!("ddot({name})")));
-    head.extend(found.effort_names());
+    head.extend(found.efforts.iter().map(|(name, _)| name.clone()));
     writeln!(out, "{}", head.join(","))?;
     let mut outputs = vec![0.0; spec.outputs.len()];
-    for (posture, efforts) in found.swept.postures.iter().zip(&found.efforts) {
+    for (posture, efforts) in found.swept.postures.iter().zip(&found.values) {
         let State { t, q, v } = &posture.state;
         ready.mechanism.outputs(*t, q, v, &mut outputs);
-        let efforts: Vec<f64> = efforts.iter().flat_map(|e| [e.effort, e.power]).collect();
-        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, &efforts].concat();
+        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, efforts].concat();
         let text = |x: f64| {
             if x.is_finite() {
                 full(x)
@@ -282,15 +265,13 @@ fn summary(
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
     let columns = Columns::of_interest(&ready.mechanism);
     let mut labels = columns.labels();
-    labels.extend(found.effort_labels(&ready.mechanism));
+    labels.extend(found.efforts.iter().cloned().map(labelled));
     let wide = width(labels.iter().map(String::as_str));
     let rows = postures
         .iter()
-        .zip(&found.efforts)
+        .zip(&found.values)
         .map(|(posture, efforts)| {
-            let mut row = columns.values(Sample::from(&posture.state));
-            row.extend(efforts.iter().flat_map(|e| [e.effort, e.power]));
-            row
+            [&columns.values(Sample::from(&posture.state)), &efforts[..]].concat()
         });
     let rows: Vec<Vec<f64>> = rows.collect();
     for (k, label) in labels.iter().enumerate() {
@@ -309,8 +290,7 @@ fn summary(
             )?;
         }
     }
-    let mut all = found.efforts.iter().flatten();
-    if found.efforts.iter().any(|e| !e.is_empty()) && all.all(|e| e.effort == 0.0) {
+    if !found.efforts.is_empty() && found.values.iter().flatten().all(|x| *x == 0.0) {
         writeln!(
             out,
             "note: the constraints make this motion by themselves, so that forces on coordinates are not needed; what drives it `inverse` tells"

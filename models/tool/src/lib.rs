@@ -42,7 +42,7 @@ pub mod drift;
 pub mod explain;
 pub mod failure;
 pub mod html;
-pub mod interrupt;
+mod interrupt;
 pub mod inverse;
 pub mod kinematics;
 pub mod list;

@@ -13,14 +13,12 @@ use crate::failure::Failure;
 /// A file being written: a temporary one beside it, which takes its name once all is written. A reader sees the old file or the new one,
 /// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly. `-` is standard output, of which
 /// each line is handed on at once.
-#[derive(Debug)]
-pub struct WholeFile {
+pub(crate) struct WholeFile {
     /// The name that was asked for.
     path: PathBuf,
     kind: Kind,
 }
 
-#[derive(Debug)]
 enum Kind {
     Temporary(BufWriter<NamedTempFile>, PathBuf),
     Direct(BufWriter<File>),
@@ -29,10 +27,7 @@ enum Kind {
 
 impl WholeFile {
     /// Begins the file `path`. Where that is not possible it is known here, before a long computation whose result would be lost.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
-    pub fn create(path: &Path) -> Result<Self, Failure> {
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let kind = match fs::metadata(&target) {
             _ if is_stdout(path) => Ok(Kind::Stdout(io::stdout())),
@@ -66,10 +61,7 @@ impl WholeFile {
     }
 
     /// Ends the file: from here on it stands under its name, whole.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
-    pub fn finish(mut self) -> Result<(), Failure> {
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
         let done = match self.kind {
             Kind::Stdout(_) | Kind::Direct(_) => self.flush(),
             Kind::Temporary(file, target) => match file.into_inner() {
@@ -178,11 +170,8 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Writes the [whole file](WholeFile) `path` through `fill`.
-///
-/// # Errors
-/// [`Failure::Failed`] naming the file; what stood there before stands there still.
-pub fn write_whole(
+/// Writes the [whole file](WholeFile) `path` through `fill`; where that fails, what stood there before stands there still.
+pub(crate) fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
@@ -229,7 +218,14 @@ impl Directory {
         self.path.join(name)
     }
 
-    /// Writes the [whole file](WholeFile) `name`, which may lie in a directory below.
+    /// The last line at the terminal: what is done, how long it took, and where the page is.
+    #[must_use]
+    pub fn told(&self, done: &str, seconds: f64) -> String {
+        let page = self.file("index.html");
+        format!("{done} in {seconds:.1} s; the report is {}", page.display())
+    }
+
+    /// Writes the whole file `name`, which may lie in a directory below.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -241,7 +237,7 @@ impl Directory {
         write_whole(&path, |w| w.write_all(bytes.as_ref()))
     }
 
-    /// Writes `value` as JSON to the [whole file](WholeFile) `name`.
+    /// Writes `value` as JSON to the whole file `name`.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -249,7 +245,7 @@ impl Directory {
         write_whole(&self.file(name), |w| json(w, value))
     }
 
-    /// Writes `rows` as comma-separated values, under the names of their fields, to the [whole file](WholeFile) `name`.
+    /// Writes `rows` as comma-separated values, under the names of their fields, to the whole file `name`.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -269,10 +265,7 @@ impl Directory {
 }
 
 /// Writes `value` as JSON with a line's end.
-///
-/// # Errors
-/// What writing to `out` reports.
-pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
+pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }

@@ -66,7 +66,7 @@ impl Runs {
                 return Err(Failure::Usage(message));
             }
             let values = values.si(plain.unit(entry, name)?);
-            let values = values.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            let values = values.map_err(Failure::value(name))?;
             axes.push((name, values));
         }
         let lengths = axes.iter().map(|(_, values)| values.len());

@@ -154,8 +154,7 @@ impl Start {
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
             let Setting { option, unit, .. } = setting(entry, name, start)?;
-            let value = quantity.si(unit);
-            let value = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            let value = quantity.si(unit).map_err(Failure::value(name))?;
             match option {
                 true => options.set(name, value),
                 false => mechanism.set(name, value)?,
@@ -205,7 +204,7 @@ impl Start {
                     Some(_) => quantity.si_rate(unit),
                     None => quantity.si(unit),
                 };
-                values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+                values[index] = value.map_err(Failure::value(name))?;
             }
         }
         Ok(state)
@@ -225,15 +224,14 @@ impl Start {
 
 /// Refuses a name that is given twice, of which one value would count and nobody know which.
 fn once(option: &str, given: &[(String, Quantity)]) -> Result<(), Failure> {
-    let twice = |(k, (name, _)): &(usize, &(String, Quantity))| {
-        given[..*k].iter().any(|(other, _)| other == name)
-    };
-    match given.iter().enumerate().find(twice) {
-        None => Ok(()),
-        Some((_, (name, _))) => Err(Failure::Usage(format!(
-            "`{name}` is given twice by `{option}`; leave one out"
-        ))),
+    for (k, (name, _)) in given.iter().enumerate() {
+        if given[..k].iter().any(|(other, _)| other == name) {
+            return Err(Failure::Usage(format!(
+                "`{name}` is given twice by `{option}`; leave one out"
+            )));
+        }
     }
+    Ok(())
 }
 
 /// What `--set` can name.

@@ -9,7 +9,6 @@ use crate::html::{fixed, power_of_ten};
 use crate::numbers::median;
 
 /// A default and what the figures say of it.
-#[derive(Debug, Clone)]
 pub(super) struct Argument {
     pub(super) default: &'static str,
     pub(super) figures: Markup,

@@ -1,6 +1,6 @@
 //! What follows from the figures: which combination to take for which accuracy, and what it costs.
 
-use super::study::{Curve, LongRun, Study};
+use super::study::{Curve, Figures, LongRun, Study};
 use super::variants::{VARIANTS, Variant};
 
 /// Accuracies that a user may want, scaled error at the end.
@@ -22,6 +22,23 @@ pub(super) struct Cost {
     pub(super) evaluations: f64,
 }
 
+impl Cost {
+    fn of(knob: f64, figures: &Figures) -> Self {
+        Cost {
+            knob,
+            seconds: figures.seconds,
+            evaluations: figures.evaluations as f64,
+        }
+    }
+
+    fn beside(self, other: Cost) -> Price {
+        Price {
+            time: self.seconds / other.seconds,
+            evaluations: self.evaluations / other.evaluations,
+        }
+    }
+}
+
 /// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before
 /// it, by straight lines in the logarithms. Where the loosest run of all has it, that one's. None if no run has it, or if the reference
 /// is not known so well.
@@ -31,14 +48,7 @@ pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
     }
     let runs: Vec<(f64, Cost)> = curve
         .figures()
-        .map(|(knob, f)| {
-            let cost = Cost {
-                knob,
-                seconds: f.seconds,
-                evaluations: f.evaluations as f64,
-            };
-            (study.claimed(f.error), cost)
-        })
+        .map(|(knob, f)| (study.claimed(f.error), Cost::of(knob, f)))
         .collect();
     let met = |k: usize| runs.get(k).is_none_or(|(error, _)| *error <= goal);
     let first = (0..runs.len()).find(|&k| met(k) && met(k + 1))?;
@@ -223,11 +233,7 @@ pub(super) struct Price {
 /// What `variant` costs beside `other` for the accuracy `goal`.
 pub(super) fn price(study: &Study, variant: &str, other: &str, goal: f64) -> Option<Price> {
     let own = cost(study, study.curve(variant)?, goal)?;
-    let beside = cost(study, study.curve(other)?, goal)?;
-    Some(Price {
-        time: own.seconds / beside.seconds,
-        evaluations: own.evaluations / beside.evaluations,
-    })
+    Some(own.beside(cost(study, study.curve(other)?, goal)?))
 }
 
 /// What `variant` costs beside `other` at the same setting, and by how much its error is larger.
@@ -239,17 +245,14 @@ pub(super) fn price_at(
 ) -> Option<(Price, f64)> {
     let own = study.curve(variant)?.at(knob)?;
     let beside = study.curve(other)?.at(knob)?;
-    let price = Price {
-        time: own.seconds / beside.seconds,
-        evaluations: own.evaluations as f64 / beside.evaluations as f64,
-    };
+    let price = Cost::of(knob, own).beside(Cost::of(knob, beside));
     let ratio = study.claimed(own.error) / study.claimed(beside.error);
     Some((price, ratio))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Figures, Limits, Point, Source};
+    use super::super::study::{Limits, Point, Source};
     use super::*;
     use crate::drift::Drift;
 

@@ -25,7 +25,8 @@ use crate::numbers;
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 
-pub use case::{Case, Class, Effort, Measure, Point, Row, Sweep, decades};
+pub use case::{Case, Effort, Measure, Sweep, decades};
+use case::{Class, Row};
 pub use model::{ModelArgs, of_model};
 
 /// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond.
@@ -41,7 +42,7 @@ pub struct StabilityArgs {
 }
 
 /// Every number on the page.
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 struct Stability<'a> {
     about: &'static str,
     /// The motion that all cases change, where it is one.
@@ -102,7 +103,7 @@ fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure>
     directory.json("stability.json", &report)?;
     directory.csv("stability.csv", report.cases.iter().flat_map(lines))?;
     directory.write("index.html", page::html(&report))?;
-    print(out, &report)?;
+    print(&directory, &report)?;
     if !report.complete {
         return Err(Failure::Interrupted(format!(
             "interrupted; {} of {} are written",
@@ -137,11 +138,11 @@ fn chosen<'c, 'a>(cases: &'c [Case<'a>], names: &[String]) -> Result<Vec<&'c Cas
 }
 
 /// The rows of the cases that were finished.
-fn compute<'a>(cases: &[&Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
+fn compute<'a>(cases: &[&'a Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
     let progress = Progress::new("stability");
     let all: usize = cases.iter().map(|c| c.sweep.values.len()).sum();
     let done = AtomicUsize::new(0);
-    let row = |case: &&Case<'a>| {
+    let row = |case: &&'a Case<'a>| {
         case.row(interrupt, || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / all as f64, || case.id.to_owned());
@@ -160,7 +161,7 @@ fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
             None => ("", ""),
         };
         Line {
-            case: row.id,
+            case: row.case.id,
             value: p.value,
             label: &p.label,
             class: p.class.word(),
@@ -176,9 +177,9 @@ fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
 }
 
 /// The table at the terminal.
-fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
+fn print(directory: &Directory, report: &Stability<'_>) -> Result<(), Failure> {
     output::to_stdout(|w| {
-        let width = numbers::width(report.cases.iter().map(|r| r.id));
+        let width = numbers::width(report.cases.iter().map(|r| r.case.id));
         let accurate = |c| c == Class::Accurate;
         let bounded = |c| c == Class::Accurate || c == Class::Degraded;
         writeln!(
@@ -191,10 +192,10 @@ fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
             writeln!(
                 w,
                 "{:width$}  {:17} {:17} {:>6.0e}  {:>11} {:>9} {:>6.1}  {}",
-                row.id,
+                row.case.id,
                 row.range_text(accurate),
                 row.range_text(bounded),
-                row.bound,
+                row.case.bound,
                 effort.evaluations,
                 effort.fallbacks,
                 seconds,
@@ -203,13 +204,7 @@ fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
         }
         let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
         let counts = Class::ALL.map(|c| format!("{} {}", count(c), c.word()));
-        writeln!(
-            w,
-            "{} in {:.1} s; the report is {}",
-            counts.join(", "),
-            report.seconds,
-            out.join("index.html").display()
-        )
+        writeln!(w, "{}", directory.told(&counts.join(", "), report.seconds))
     })
 }
 

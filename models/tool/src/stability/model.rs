@@ -59,7 +59,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     let about = format!("`{id}` from `{from}`, {length} s");
     let subject = Subject::new(ready, start.map(|start| (start.name, options)), args.until);
     let mut sweeps = Vec::new();
-    let spec = subject.mechanism.spec();
+    let spec = subject.ready.mechanism.spec();
     // No two cases have one name.
     let free = |name, instead| match spec.params.iter().any(|p| p.name == name) {
         true => instead,
@@ -68,7 +68,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     for (i, (parameter, value)) in spec
         .params
         .iter()
-        .zip(subject.mechanism.parameters())
+        .zip(subject.ready.mechanism.parameters())
         .enumerate()
     {
         if *value != 0.0 {
@@ -81,7 +81,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
             ));
         }
     }
-    if subject.state.v.iter().any(|v| *v != 0.0) {
+    if subject.ready.state.v.iter().any(|v| *v != 0.0) {
         let swept = "velocities of the start, times what they are".to_owned();
         let name = free("speed", "start-speed");
         sweeps.push((name, swept, decades(-6, 6, 2, 0), Change::Speed));
@@ -137,11 +137,9 @@ enum Change {
 
 /// A model, at its start.
 struct Subject<'a> {
-    entry: &'a Entry,
-    mechanism: Prepared,
+    ready: Ready<'a>,
     /// Name and options of the start, if it has one.
     start: Option<(&'static str, StartOptions)>,
-    state: State,
     length: f64,
 }
 
@@ -162,25 +160,23 @@ impl<'a> Subject<'a> {
         until: Option<f64>,
     ) -> Self {
         Subject {
-            entry: ready.entry,
-            mechanism: ready.mechanism,
             start: start.filter(|(name, _)| *name == ready.start),
             length: until.unwrap_or(ready.duration) - ready.state.t,
-            state: ready.state,
+            ready,
         }
     }
 
     /// The error of the motion with this change.
     fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
-        let mut mechanism = self.mechanism.clone();
+        let mut mechanism = self.ready.mechanism.clone();
         let mut tolerance = TOLERANCE;
-        let mut state = self.state.clone();
+        let mut state = self.ready.state.clone();
         match change {
             Change::Parameter(i) => {
                 let name = mechanism.spec().params[i].name;
-                mechanism.set(name, self.mechanism.parameters()[i] * value)?;
+                mechanism.set(name, self.ready.mechanism.parameters()[i] * value)?;
                 state = match &self.start {
-                    Some((name, options)) => self.entry.start(&mechanism, name, options)?,
+                    Some((name, options)) => self.ready.entry.start(&mechanism, name, options)?,
                     None => assemble(&mechanism, &state, &[])?,
                 };
             }
@@ -259,7 +255,7 @@ impl<'a> Subject<'a> {
 
     /// The formula of the paper for this mass matrix.
     fn printed(&self) -> Formula {
-        match self.mechanism.spec().structure.massless.is_empty() {
+        match self.ready.mechanism.spec().structure.massless.is_empty() {
             true => Formula::UdwadiaKalaba,
             false => Formula::UdwadiaPhohomsiri,
         }

@@ -64,11 +64,11 @@ fn summary(rows: &[Row<'_>]) -> Markup {
         let wrong = row.count(Class::Wrong);
         vec![
             Cell::Text(
-                html! { a href=(format!("#{}", row.id)) { (row.id) } br; small { (row.swept) } },
+                html! { a href=(format!("#{}", row.case.id)) { (row.case.id) } br; small { (row.case.swept) } },
             ),
             Cell::text(row.range_text(|c| c == Class::Accurate)),
             Cell::text(row.range_text(|c| c == Class::Accurate || c == Class::Degraded)),
-            Cell::power(row.bound),
+            Cell::power(row.case.bound),
             Cell::Text(html! {
                 (row.refusals().join(", "))
                 @if wrong > 0 { " " b.fails { (wrong) " wrong" } }
@@ -87,12 +87,12 @@ fn summary(rows: &[Row<'_>]) -> Markup {
 
 fn values(row: &Row<'_>) -> Markup {
     let caption = html! {
-        (row.swept) ". Compared with: " (row.oracle) ". Full accuracy: " (power_of_ten(row.accurate_to)) "; bound: "
-         (power_of_ten(row.bound)) "."
+        (row.case.swept) ". Compared with: " (row.case.oracle) ". Full accuracy: " (power_of_ten(row.case.accurate)) "; bound: "
+         (power_of_ten(row.case.bound)) "."
     };
     let heads = "value | outcome | error | steps | evaluations | fallbacks | what was said";
     html! {
-        h3 id=(row.id) { (row.id) }
+        h3 id=(row.case.id) { (row.case.id) }
         (table(caption, heads, row.points.iter().map(value)))
     }
 }

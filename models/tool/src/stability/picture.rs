@@ -62,7 +62,7 @@ fn write<'a>(
 
 fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>> {
     let middle = top + BAR / 2;
-    write(area, (14, middle), HPos::Left, 13, row.id)?;
+    write(area, (14, middle), HPos::Left, 13, row.case.id)?;
     let named = row.points.iter().any(|p| p.label.contains(' '));
     if let (Some(first), Some(last), false) = (row.points.first(), row.points.last(), named) {
         write(area, (LEFT - 8, middle), HPos::Right, 12, &first.label)?;
@@ -84,8 +84,8 @@ fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>
         ))?;
     }
     // The ordinary value, where it is not at an end.
-    if row.ordinary > 0 && row.ordinary + 1 < row.points.len() {
-        let place = (left(row.ordinary as f64 + 0.5), middle);
+    if row.case.sweep.ordinary > 0 && row.case.sweep.ordinary + 1 < row.points.len() {
+        let place = (left(row.case.sweep.ordinary as f64 + 0.5), middle);
         area.draw(&Circle::new(place, 2, WHITE.filled()))?;
     }
     Ok(())

@@ -9,7 +9,7 @@ mod motion;
 mod page;
 mod published;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -110,7 +110,7 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     directory.write(fish::FILM, fish::film()?)?;
     directory.json("paper.json", &paper)?;
     directory.write("index.html", page::html(&paper))?;
-    report(&args.out, &paper)
+    report(&directory, &paper)
 }
 
 impl Results {
@@ -160,7 +160,7 @@ fn compute() -> Result<Results, Failure> {
 }
 
 /// What a person at the terminal wants to know at once.
-fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
+fn report(directory: &Directory, paper: &Paper) -> Result<(), Failure> {
     let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
     output::to_stdout(|w| {
         writeln!(
@@ -197,12 +197,7 @@ fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
             count(Verdict::Nearly),
             count(Verdict::Fails)
         )?;
-        writeln!(
-            w,
-            "{} runs in {:.1} s; the report is {}",
-            paper.runs.len(),
-            paper.seconds,
-            out.join("index.html").display()
-        )
+        let runs = format!("{} runs", paper.runs.len());
+        writeln!(w, "{}", directory.told(&runs, paper.seconds))
     })
 }

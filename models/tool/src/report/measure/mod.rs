@@ -6,7 +6,6 @@ mod long;
 use std::ops::ControlFlow;
 
 use ukcore::manifold::Projector;
-use ukcore::model::Reference;
 use ukcore::simulate::Ending;
 use ukcore::solver::Formula;
 use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
@@ -14,12 +13,11 @@ use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajecto
 use crate::drift::Drift;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::scene::Ready;
 
-use super::clock;
 use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
 use super::truth::{Truth, stacked, states};
 use super::variants::{VARIANTS, Variant};
+use super::{Job, clock};
 
 /// No run may take longer, s; a combination ends with the setting at which one would.
 const LONGEST_RUN: f64 = 2.0;
@@ -51,22 +49,20 @@ struct Timing {
     seconds: Vec<f64>,
 }
 
-/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings
-/// and times each of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
+/// Measures a motion; a quick look runs few settings and times each of them once. `done` hears the part that is done. What was measured
+/// before an interrupt is kept.
 ///
 /// # Errors
 /// If the start has no solution or the motion no reference.
 pub(super) fn study(
-    name: &str,
-    ready: &Ready<'_>,
-    end: f64,
-    reference: Option<&Reference>,
+    job: &Job<'_>,
     quick: bool,
     interrupt: Interrupt,
     done: &dyn Fn(f64),
 ) -> Result<Study, Failure> {
+    let ready = job.start.ready(job.entry)?;
     let (mechanism, start) = (&ready.mechanism, &ready.state);
-    let truth = Truth::of(mechanism, start, end, reference)?;
+    let truth = Truth::of(mechanism, start, job.end, job.reference.as_ref())?;
     let mut solver = Solver::new(mechanism, SolverOptions::default());
     let subject = Subject {
         mechanism,
@@ -83,7 +79,7 @@ pub(super) fn study(
         long = subject.long_runs(&curves);
     }
     Ok(Study {
-        name: name.to_owned(),
+        name: job.name.clone(),
         model: ready.entry.id.clone(),
         summary: ready.entry.summary.to_owned(),
         end: subject.truth.end(),
@@ -236,10 +232,10 @@ impl Subject<'_> {
                     // The clock is asked now and then: it takes as long as some steps.
                     let asked = steps.is_multiple_of(16);
                     let long = || (clock::now() - start).as_secs_f64() > LONGEST_RUN;
-                    if interrupt.is_set() || (asked && long()) {
+                    if asked && long() {
                         return ControlFlow::Break(());
                     }
-                    ControlFlow::Continue(())
+                    interrupt.flow()
                 })
                 .until(end)
         });
