@@ -1,12 +1,11 @@
 //! The summary as a picture: a bar a case, a cell a value, coloured by how it came out.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::case::{Class, Row};
 use crate::failure::Failure;
-use crate::plot::{DrawError, FONT, svg};
+use crate::plot::{Area, DrawError, svg, write};
 
 const WIDTH: i32 = 800;
 const HEAD: i32 = 44;
@@ -26,8 +25,6 @@ fn look(class: Class) -> (RGBColor, &'static str) {
     }
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
 /// The picture as the text of an SVG file.
 pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     let height = HEAD + PITCH * rows.len() as i32 + 10;
@@ -45,19 +42,6 @@ pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
             .zip(tops)
             .try_for_each(|(row, top)| bar(area, row, top))
     })
-}
-
-fn write<'a>(
-    area: &Area<'a>,
-    place: (i32, i32),
-    side: HPos,
-    size: i32,
-    text: &str,
-) -> Result<(), DrawError<'a>> {
-    let style = (FONT, size)
-        .into_text_style(area)
-        .pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text, place, style))
 }
 
 fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>> {
