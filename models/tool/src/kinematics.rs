@@ -46,13 +46,8 @@ pub struct KinematicsArgs {
 /// Drives by name, from value to value.
 type Ranges<'a> = Vec<(&'a str, Range<f64>)>;
 
-/// What `--drive` says.
-#[derive(Debug, Clone)]
-pub struct Drive {
-    name: String,
-    ends: [Quantity; 2],
-    step: Option<Quantity>,
-}
+/// What `--drive` says: a name, from where to where it goes, and in which steps.
+pub type Drive = (String, [Quantity; 2], Option<Quantity>);
 
 /// Intervals where no step is given, and at most.
 const INTERVALS: usize = 200;
@@ -62,11 +57,7 @@ const MOST: f64 = 1e6;
 fn drive(text: &str) -> Result<Drive, String> {
     let (name, values) = units::split(text, "FROM..TO")?;
     let (ends, step) = units::range(name, values)?;
-    Ok(Drive {
-        name: name.to_owned(),
-        ends,
-        step,
-    })
+    Ok((name.to_owned(), ends, step))
 }
 
 /// Sweeps the drives of a model, and prints what is reached, the limits of motion, and the range of each output.
@@ -167,16 +158,15 @@ fn unit(ready: &Ready<'_>, name: &str) -> &'static str {
 fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usize), Failure> {
     let mut ranges = Vec::new();
     let mut intervals = INTERVALS;
-    for (k, drive) in asked.iter().enumerate() {
-        let unit = unit(ready, &drive.name);
-        let si = |quantity: &Quantity| quantity.si(unit).map_err(Failure::value(&drive.name));
-        let name = &drive.name;
-        let [from, mut to] = [si(&drive.ends[0])?, si(&drive.ends[1])?];
-        if let Some(step) = &drive.step {
+    for (k, (name, [from, to], step)) in asked.iter().enumerate() {
+        let unit = unit(ready, name);
+        let si = |quantity: &Quantity| quantity.si(unit).map_err(Failure::value(name));
+        let (from, mut to) = (si(from)?, si(to)?);
+        if let Some(step) = step {
             let step = si(step)?;
             let steps = (to - from) / step;
             let refusal = if k > 0 {
-                let first = &asked[0].name;
+                let first = &asked[0].0;
                 Some(format!(
                     "`{name}` goes along with `{first}`, which alone has a step"
                 ))
@@ -200,7 +190,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
                 to = from + step * intervals as f64;
             }
         }
-        ranges.push((drive.name.as_str(), from..to));
+        ranges.push((name.as_str(), from..to));
     }
     Ok((ranges, intervals))
 }

@@ -3,8 +3,7 @@
 pub use ukcore::numbers::{fixed, full, short, significant};
 
 /// A number of things in words: `1 step`, `2 steps`.
-#[must_use]
-pub fn count(number: usize, thing: &str) -> String {
+pub(crate) fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {thing}{plural}")
 }
@@ -30,8 +29,7 @@ pub(crate) fn in_degrees(value: f64, unit: &str) -> Option<String> {
 }
 
 /// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
-#[must_use]
-pub fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1e-3 => (1e6 * s, "µs"),
         s if s < 1.0 => (1e3 * s, "ms"),
@@ -46,8 +44,7 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// The number of characters of the longest of some names; 0 if there is none.
-#[must_use]
-pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
+pub(crate) fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     let lengths = names.into_iter().map(|n| n.chars().count());
     lengths.max().unwrap_or(0)
 }
@@ -85,8 +82,7 @@ pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
 }
 
 /// The median of some numbers: of two in the middle the larger; nothing if there is none.
-#[must_use]
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
+pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
 }

@@ -38,14 +38,11 @@ pub struct Runs {
 }
 
 /// One of the runs that [`Runs`] asks for.
-#[derive(Debug, Clone)]
-pub struct Variant {
-    /// With which parameters, and from where.
-    pub start: Start,
-    /// How it is computed.
-    pub motion: Motion,
+pub(crate) struct Variant {
+    pub(crate) start: Start,
+    pub(crate) motion: Motion,
     /// What distinguishes it from the others: names and values.
-    pub differs: Vec<(String, String)>,
+    pub(crate) differs: Vec<(String, String)>,
 }
 
 impl Runs {
@@ -53,7 +50,7 @@ impl Runs {
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
-    pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
+    pub(crate) fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
         let plain = Start {
             place: self.place.clone(),
             ..Start::default()

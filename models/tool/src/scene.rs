@@ -54,18 +54,16 @@ impl Place {
 }
 
 /// A mechanism with the parameters asked for, at the start asked for.
-#[derive(Debug, Clone)]
-pub struct Ready<'a> {
-    /// The model.
-    pub entry: &'a Entry,
-    /// The mechanism with its parameters.
-    pub mechanism: Prepared,
+pub(crate) struct Ready<'a> {
+    pub(crate) entry: &'a Entry,
+    /// With its parameters.
+    pub(crate) mechanism: Prepared,
     /// Name of the start; `"assembled"` where it was found from a guess.
-    pub start: &'static str,
+    pub(crate) start: &'static str,
     /// The state there.
-    pub state: State,
+    pub(crate) state: State,
     /// How long a typical run from it lasts, s.
-    pub duration: f64,
+    pub(crate) duration: f64,
 }
 
 impl Scene {
@@ -75,15 +73,14 @@ impl Scene {
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
     /// nothing near the guess satisfies the constraints.
-    pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
+    pub(crate) fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
         self.start.noted(find(models, &self.model)?)
     }
 }
 
 impl Start {
     /// Whether nothing is asked for, so that the model is taken as it is.
-    #[must_use]
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
     }
 
@@ -97,10 +94,7 @@ impl Start {
     }
 
     /// Sets the parameters of `entry` and puts it together at its start.
-    ///
-    /// # Errors
-    /// What [`Scene::ready`] reports.
-    pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
+    pub(crate) fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let (mechanism, start, options) = self.settings(entry)?;
         let (name, state) = match start.filter(|_| !self.guesses()) {
             Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),
@@ -141,10 +135,7 @@ impl Start {
     }
 
     /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] for unknown names and values in the wrong unit.
-    pub fn settings(
+    pub(crate) fn settings(
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {

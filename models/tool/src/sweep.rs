@@ -45,32 +45,19 @@ pub struct SweepArgs {
     /// Only a share of the runs, such as `3/10`: every tenth, from the third on. Tables of all shares, one behind the other in one file,
     /// are a table of the sweep, which the same command without a share puts in order and completes
     #[arg(long, value_name = "K/N", value_parser = shard)]
-    pub shard: Option<Shard>,
+    pub shard: Option<(usize, usize)>,
     /// The table, as CSV, or as Parquet where its name ends in `.parquet` and this program is built with that feature: from rows that are
     /// collected in FILE.csv. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub out: PathBuf,
 }
 
-/// A share of the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    number: usize,
-    of: usize,
-}
-
-impl Shard {
-    fn has(self, member: usize) -> bool {
-        member % self.of == self.number - 1
-    }
-}
-
 /// Reads `K/N`.
-fn shard(text: &str) -> Result<Shard, String> {
+fn shard(text: &str) -> Result<(usize, usize), String> {
     let (number, of) = text.split_once('/').unwrap_or((text, ""));
     let read = |text: &str| text.trim().parse::<usize>().ok();
     match (read(number), read(of)) {
-        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok(Shard { number, of }),
+        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok((number, of)),
         _ => Err("a share is needed as K/N, with K from 1 to N: `1/10` to `10/10`".to_owned()),
     }
 }
@@ -104,7 +91,10 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let head = plan.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;
-    let own = |member: &usize| args.shard.is_none_or(|shard| shard.has(*member));
+    let own = |member: &usize| {
+        let mut shard = args.shard.iter();
+        shard.all(|(number, of)| member % of == number - 1)
+    };
     let mut todo = table.missing(&plan)?;
     todo.retain(own);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));

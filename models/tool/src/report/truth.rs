@@ -31,7 +31,7 @@ pub(super) struct Truth {
     /// Times of the states, in order.
     pub(super) times: Vec<f64>,
     /// (q, q̇) at these times.
-    states: Vec<Vec<f64>>,
+    pub(super) states: Vec<Vec<f64>>,
     /// Sizes of (q, q̇).
     pub(super) scale: Vec<f64>,
 }
@@ -148,10 +148,6 @@ impl Truth {
 
     pub(super) fn last(&self) -> usize {
         self.times.len().saturating_sub(1)
-    }
-
-    pub(super) fn state(&self, index: usize) -> &[f64] {
-        &self.states[index]
     }
 
     /// Distance of (q, q̇) from state number `index`.
@@ -281,7 +277,7 @@ mod tests {
         let shipped = Truth::shipped(mechanism.spec(), &start(), &closed());
         let computed = Truth::computed(&mechanism, &start(), shipped.times.clone());
         let computed = computed.expect("the runs succeed");
-        let error = shipped.errors(shipped.last(), computed.state(computed.last()));
+        let error = shipped.errors(shipped.last(), &computed.states[computed.last()]);
         let bound = 3.0 * (shipped.floor + computed.floor);
         assert!(error.scaled < bound, "{error:?} {bound:e}");
     }

@@ -54,6 +54,13 @@ struct Stability<'a> {
     seconds: f64,
 }
 
+impl Stability<'_> {
+    /// The number of values that came out as `class`, in all cases.
+    fn count(&self, class: Class) -> usize {
+        self.cases.iter().map(|row| row.count(class)).sum()
+    }
+}
+
 const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
 
 /// A row of stability.csv.
@@ -111,27 +118,23 @@ fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure>
             numbers::count(chosen.len(), "case")
         )));
     }
-    match report.cases.iter().map(|r| r.count(Class::Wrong)).sum() {
+    match report.count(Class::Wrong) {
         0 => Ok(()),
         wrong => Err(Failure::Failed(format!(
-            "{} off by more than the bound of the case, and no error said so",
-            match wrong {
-                1 => "1 result is".to_owned(),
-                _ => format!("{wrong} results are"),
-            }
+            "{} {} off by more than the bound of the case, and no error said so",
+            numbers::count(wrong, "result"),
+            if wrong == 1 { "is" } else { "are" },
         ))),
     }
 }
 
 /// The cases with these names, in their own order; all if there is no name.
 fn chosen<'c, 'a>(cases: &'c [Case<'a>], names: &[String]) -> Result<Vec<&'c Case<'a>>, Failure> {
-    for name in names {
-        if !cases.iter().any(|c| c.id == name) {
-            let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
-            let unknown = Error::unknown_name("case", name, &mut ids.iter().copied());
-            let known = ids.join(", ");
-            return Err(Failure::Usage(format!("{unknown}; there are {known}")));
-        }
+    let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
+    if let Some(name) = names.iter().find(|name| !ids.contains(&name.as_str())) {
+        let unknown = Error::unknown_name("case", name, &mut ids.iter().copied());
+        let known = ids.join(", ");
+        return Err(Failure::Usage(format!("{unknown}; there are {known}")));
     }
     let asked = |c: &&Case<'_>| names.is_empty() || names.iter().any(|n| n == c.id);
     Ok(cases.iter().filter(asked).collect())
@@ -156,10 +159,8 @@ fn compute<'a>(cases: &[&'a Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
 
 fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
     row.points.iter().map(|p| {
-        let (refusal, message) = match &p.refusal {
-            Some((name, message)) => (*name, message.as_str()),
-            None => ("", ""),
-        };
+        let refusal = p.refusal.as_ref();
+        let (refusal, message) = refusal.map_or(("", ""), |(name, told)| (*name, told));
         Line {
             case: row.case.id,
             value: p.value,
@@ -202,21 +203,17 @@ fn print(directory: &Directory, report: &Stability<'_>) -> Result<(), Failure> {
                 beyond(row)
             )?;
         }
-        let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
-        let counts = Class::ALL.map(|c| format!("{} {}", count(c), c.word()));
+        let counts = Class::ALL.map(|c| format!("{} {}", report.count(c), c.word()));
         writeln!(w, "{}", directory.told(&counts.join(", "), report.seconds))
     })
 }
 
 /// What happens beyond the bound, in a few words.
 fn beyond(row: &Row<'_>) -> String {
-    let mut words = row.refusals().join(", ");
-    let wrong = row.count(Class::Wrong);
-    if wrong > 0 {
-        if !words.is_empty() {
-            words.push_str("; ");
-        }
-        words.push_str(&format!("WRONG at {}", numbers::count(wrong, "value")));
+    let refusals = row.refusals().join(", ");
+    match (row.count(Class::Wrong), refusals.as_str()) {
+        (0, _) => refusals,
+        (wrong, "") => format!("WRONG at {}", numbers::count(wrong, "value")),
+        (wrong, _) => format!("{refusals}; WRONG at {}", numbers::count(wrong, "value")),
     }
-    words
 }

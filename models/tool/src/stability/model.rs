@@ -65,61 +65,60 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
         true => instead,
         false => name,
     };
-    for (i, (parameter, value)) in spec
-        .params
-        .iter()
-        .zip(subject.ready.mechanism.parameters())
-        .enumerate()
-    {
+    let mut add = |id, swept: String, values, change| sweeps.push((id, swept, values, change));
+    let usual = subject.ready.mechanism.parameters().iter();
+    for (i, (parameter, value)) in spec.params.iter().zip(usual).enumerate() {
         if *value != 0.0 {
             let swept = format!("parameter {}, times what it is", parameter.name);
-            sweeps.push((
+            add(
                 parameter.name,
                 swept,
                 decades(-12, 12, 3, 0),
                 Change::Parameter(i),
-            ));
+            );
         }
     }
     if subject.ready.state.v.iter().any(|v| *v != 0.0) {
         let swept = "velocities of the start, times what they are".to_owned();
-        let name = free("speed", "start-speed");
-        sweeps.push((name, swept, decades(-6, 6, 2, 0), Change::Speed));
+        add(
+            free("speed", "start-speed"),
+            swept,
+            decades(-6, 6, 2, 0),
+            Change::Speed,
+        );
     }
+    let swept = "tolerance; errors are in units of it".to_owned();
     let tolerances = Sweep {
         ordinary: 6,
         ..decades(-3, -15, 1, -9)
     };
-    sweeps.push((
+    add(
         free("tolerance", "run-tolerance"),
-        "tolerance; errors are in units of it".to_owned(),
+        swept,
         tolerances,
         Change::Tolerance,
-    ));
-
+    );
     let measures = sweeps.iter().map(|(.., change)| {
         let subject = &subject;
         move |value: f64, effort: &mut Effort| subject.error(*change, value, effort)
     });
     let measures: Vec<_> = measures.collect();
-    let cases = sweeps
-        .iter()
-        .zip(&measures)
-        .map(|((id, swept, values, change), measure)| Case {
+    let cases = sweeps.iter().zip(&measures);
+    let cases = cases.map(|((id, swept, values, change), measure)| {
+        let (accurate, bound) = match change {
+            Change::Tolerance => (GATHERED, BOUND / TOLERANCE),
+            _ => (GATHERED * TOLERANCE, BOUND),
+        };
+        Case {
             id,
             swept,
             oracle: ORACLE,
-            accurate: match change {
-                Change::Tolerance => GATHERED,
-                _ => GATHERED * TOLERANCE,
-            },
-            bound: match change {
-                Change::Tolerance => BOUND / TOLERANCE,
-                _ => BOUND,
-            },
+            accurate,
+            bound,
             sweep: values.clone(),
             measure,
-        });
+        }
+    });
     let cases: Vec<Case<'_>> = cases.collect();
     sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)
 }

@@ -26,8 +26,7 @@ pub(super) fn html(report: &Stability<'_>) -> String {
 }
 
 fn head(report: &Stability<'_>) -> Markup {
-    let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
-    let [accurate, degraded, refused, wrong] = Class::ALL.map(count);
+    let [accurate, degraded, refused, wrong] = Class::ALL.map(|class| report.count(class));
     html! {
         p.lead {
             @if !report.subject.is_empty() { (message(report.subject)) ". " }

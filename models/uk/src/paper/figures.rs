@@ -1,6 +1,5 @@
 //! The figures.
 
-use std::collections::BTreeMap;
 use std::iter::once;
 
 use uktool::failure::Failure;
@@ -10,9 +9,6 @@ use uktool::plot::{COLOURS, Chart, Legend, Place, RGBColor, Series, round_range}
 use super::chain::Chain;
 use super::fish::{self, Fish};
 use super::published::GRAVITY;
-
-/// File names without ending, and the text of the SVG.
-pub(super) type Figures = BTreeMap<String, String>;
 
 type Curve = Vec<(f64, f64)>;
 /// The name of a fish in a legend.
@@ -41,8 +37,8 @@ const ACCELERATION: Quantity = (
 );
 const SWING: Quantity = ("swing angle θ1 (°)", |f| &f.swing, Place::UpperLeft);
 
-/// All figures.
-pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure> {
+/// All figures: file names without ending, and the text of the SVG.
+pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Vec<(String, String)>, Failure> {
     let mut charts: Vec<(String, Chart)> = Vec::new();
     if let Some(first) = chains.first() {
         charts.push(("chain-falling".to_owned(), falling(first)));

@@ -42,10 +42,12 @@ struct Subject<'a> {
     interrupt: Interrupt,
 }
 
-/// A run to be timed, by its place in the curves.
-struct Timing {
-    curve: usize,
-    point: usize,
+/// A run to be timed, so many times in a row.
+struct Timing<'a> {
+    variant: &'a Variant,
+    knob: f64,
+    batch: f64,
+    figures: &'a mut Figures,
     seconds: Vec<f64>,
 }
 
@@ -123,14 +125,10 @@ impl Subject<'_> {
                     break;
                 }
                 let too_long = matches!(result, Err(Trouble::TooLong));
-                let (figures, failure) = match result {
-                    Ok(figures) => (Some(figures), None),
-                    Err(trouble) => (None, Some(trouble.to_string())),
-                };
                 curve.points.push(Point {
                     knob,
-                    figures,
-                    failure,
+                    figures: result.as_ref().ok().copied(),
+                    failure: result.err().map(|trouble| trouble.to_string()),
                 });
                 if too_long {
                     break;
@@ -156,12 +154,17 @@ impl Subject<'_> {
     /// Repeats the runs that succeeded, one after the other round by round, so that what disturbs the machine for a while meets all alike.
     fn repeat(&self, curves: &mut [Curve], done: &dyn Fn(f64)) {
         let mut timings = Vec::new();
-        for (curve, c) in curves.iter().enumerate() {
-            for (point, p) in c.points.iter().enumerate() {
-                if p.figures.is_some_and(|f| f.seconds < LONG) {
+        for curve in curves {
+            let variant = super::variants::named(&curve.variant);
+            for Point { knob, figures, .. } in &mut curve.points {
+                if let (Some(variant), Some(figures)) = (variant, figures)
+                    && figures.seconds < LONG
+                {
                     timings.push(Timing {
-                        curve,
-                        point,
+                        variant,
+                        knob: *knob,
+                        batch: (BATCH / figures.seconds).ceil().clamp(1.0, 1000.0),
+                        figures,
                         seconds: Vec::new(),
                     });
                 }
@@ -175,21 +178,13 @@ impl Subject<'_> {
                 if self.interrupt.is_set() || (round >= LEAST && used > share) {
                     continue;
                 }
-                let curve = &curves[timing.curve];
-                let point = &curve.points[timing.point];
-                let (Some(variant), Some(first)) =
-                    (super::variants::named(&curve.variant), point.figures)
-                else {
-                    continue;
-                };
-                let batch = (BATCH / first.seconds).ceil().clamp(1.0, 1000.0);
                 let ((), seconds) = clock::timed(|| {
-                    for _ in 0..batch as usize {
-                        let run = self.bare(variant, point.knob);
+                    for _ in 0..timing.batch as usize {
+                        let run = self.bare(timing.variant, timing.knob);
                         std::hint::black_box(&run);
                     }
                 });
-                timing.seconds.push(seconds / batch);
+                timing.seconds.push(seconds / timing.batch);
                 done((round as f64 + k as f64 / all as f64) / MOST as f64);
             }
         }
@@ -199,11 +194,9 @@ impl Subject<'_> {
                 let last = timing.seconds.len().saturating_sub(1);
                 timing.seconds[(part * last as f64).round() as usize]
             };
-            if let Some(figures) = &mut curves[timing.curve].points[timing.point].figures {
-                figures.seconds = quantile(0.5);
-                figures.quartiles = (quantile(0.25), quantile(0.75));
-                figures.repeats = timing.seconds.len();
-            }
+            timing.figures.seconds = quantile(0.5);
+            timing.figures.quartiles = (quantile(0.25), quantile(0.75));
+            timing.figures.repeats = timing.seconds.len();
         }
     }
 
@@ -252,10 +245,7 @@ impl Subject<'_> {
         let (run, seconds) = self.watched(self.simulation(variant, knob), truth.end())?;
         let times = truth.times.clone();
         let (sampled, _) = self.watched(self.simulation(variant, knob).at(times), truth.end())?;
-        let Some(end) = run.last() else {
-            return Err(Trouble::NoNumber);
-        };
-        let end = end.to_state();
+        let end = run.last().ok_or(Trouble::NoNumber)?.to_state();
         // From far off the constraints the way back may not be found.
         let nearest = self.nearest(&end).ok().map(|nearest| stacked(&nearest));
         let (last, end) = (truth.last(), stacked(&end));
@@ -280,15 +270,10 @@ impl Subject<'_> {
             within: nearest.as_ref().map(|n| truth.errors(last, n).scaled),
             drift,
         };
-        let numbers = [
-            figures.error,
-            drift.position_residual,
-            drift.velocity_residual,
-        ];
-        if numbers.iter().all(|x| x.is_finite()) {
-            Ok(figures)
-        } else {
-            Err(Trouble::NoNumber)
+        let residuals = [drift.position_residual, drift.velocity_residual];
+        match figures.error.is_finite() && residuals.iter().all(|x| x.is_finite()) {
+            true => Ok(figures),
+            false => Err(Trouble::NoNumber),
         }
     }
 
