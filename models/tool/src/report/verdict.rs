@@ -151,7 +151,7 @@ pub(super) fn tally(studies: &[Study]) -> Vec<Tally> {
 }
 
 /// How the default combination of [`ukcore::Simulation`] compares with the best, over all motions.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Default)]
 pub(super) struct Standing {
     /// Cases (motion and accuracy) that some combination reaches.
     pub(super) cases: usize,
@@ -164,12 +164,7 @@ pub(super) struct Standing {
 }
 
 pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
-    let mut found = Standing {
-        cases: 0,
-        best: 0,
-        missed: 0,
-        worst: None,
-    };
+    let mut found = Standing::default();
     for study in studies {
         for goal in GOALS {
             let Some(choice) = choice(study, goal, among) else {
