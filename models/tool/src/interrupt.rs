@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::discard_unfinished;
 
-/// A flag that is set once the user has asked the program to end, by Ctrl-C or SIGTERM.
+/// Knows whether the user has asked the program to end, by Ctrl-C or SIGTERM.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Interrupt(());
 
@@ -36,7 +36,7 @@ impl Interrupt {
         }
     }
 
-    /// Whether a computation goes on: not once the flag is set.
+    /// Whether a computation goes on: not once the user has asked.
     pub(crate) fn flow(self) -> ControlFlow<()> {
         match self.is_set() {
             true => ControlFlow::Break(()),

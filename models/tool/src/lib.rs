@@ -66,8 +66,7 @@ mod ways;
 
 pub use ukcore::model::Entry;
 
-/// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `sweep`, `animate`,
-/// `modes`, `diagnose`, `inverse`, `kinematics`, `explain`, `report` and `stability`.
+/// The whole of a program for the mechanisms declared beside it: a `main` function with all commands of the [crate].
 ///
 /// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
 /// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.

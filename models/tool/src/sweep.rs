@@ -91,10 +91,8 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let head = plan.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;
-    let own = |member: &usize| {
-        let mut shard = args.shard.iter();
-        shard.all(|(number, of)| member % of == number - 1)
-    };
+    let (number, of) = args.shard.unwrap_or((1, 1));
+    let own = |member: &usize| member % of == number - 1;
     let mut todo = table.missing(&plan)?;
     todo.retain(own);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));

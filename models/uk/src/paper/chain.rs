@@ -149,11 +149,7 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
     let before = |t: f64| t <= t_max;
     let (t_peak, peak) = extremum(&mut motion, &acceleration, 1.0, |_| true)?;
     let (t_highest, lowest) = extremum(&mut motion, &acceleration, -1.0, before)?;
-    let above = |(t, a): &&(f64, f64)| *t <= t_max && *a > g;
-    let t_above_g = acceleration.iter().filter(above).map(|p| p.0);
-    let t_above_g = t_above_g.fold(0.0, f64::max);
-    let until_then = acceleration.iter().take_while(|(t, _)| *t <= t_above_g);
-    let excess: Vec<f64> = until_then.map(|(_, a)| a - g).collect();
+    let (t_above_g, excess) = excess(&acceleration, g, t_max);
     let count = excess.len().max(1) as f64;
     let free = chain.free_fall(t_max);
     let least_lead = fall
@@ -197,6 +193,14 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
         path,
         snapshots,
     })
+}
+
+/// The last time before the turn at which ÿ1 > g, and ÿ1 − g at the samples up to then.
+fn excess(samples: &[(f64, f64)], g: f64, t_max: f64) -> (f64, Vec<f64>) {
+    let above = |(t, a): &&(f64, f64)| *t <= t_max && *a > g;
+    let last = samples.iter().rfind(above).map_or(0.0, |(t, _)| *t);
+    let until_then = samples.iter().take_while(|(t, _)| *t <= last);
+    (last, until_then.map(|(_, a)| a - g).collect())
 }
 
 /// Place and value of the least of `sign` ÿ1 among the samples where `near` holds, refined between their neighbours.
