@@ -21,6 +21,7 @@ use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
+use crate::summary::joule;
 use crate::ways;
 
 /// The command-line arguments of the command `animate`, to be flattened into a parser of `clap`.
@@ -70,7 +71,6 @@ struct Shape<'a> {
     label: &'a str,
 }
 
-/// A run as the page has it.
 #[derive(Serialize)]
 struct Shown {
     label: String,
@@ -84,7 +84,6 @@ struct Shown {
 }
 
 /// A run whose pictures are taken while it is computed.
-#[derive(Debug)]
 pub(crate) struct Film {
     mechanism: Prepared,
     label: String,
@@ -92,7 +91,6 @@ pub(crate) struct Film {
     frames: Thinned<Frame>,
 }
 
-#[derive(Debug)]
 struct Frame {
     t: f64,
     picture: Vec<f32>,
@@ -188,19 +186,20 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     failed.map_or(Ok(()), Err)
 }
 
-/// The page of motions of one model side by side, each with what it is called there, in so many pictures.
+/// The page of motions of one model side by side from several starts, each with what it is called there, in so many pictures.
 ///
 /// # Errors
 /// What [`animate`] reports, and why a motion ends early if one does.
 pub fn page_of(
     entry: &Entry,
-    runs: &[(&str, Start, Motion)],
+    runs: impl IntoIterator<Item = (String, Start)>,
+    motion: &Motion,
     pictures: u32,
 ) -> Result<String, Failure> {
     let (mut films, mut about) = (Vec::new(), String::new());
-    for (label, start, motion) in runs {
+    for (label, start) in runs {
         let ready = start.ready(entry)?;
-        let film = Film::new(&ready, (*label).to_owned())?;
+        let film = Film::new(&ready, label)?;
         let (film, error) = taken(film, &ready, motion, pictures)?;
         error.map_or(Ok(()), Err)?;
         if films.is_empty() {
@@ -267,11 +266,7 @@ pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<Strin
     let data = Data {
         dimension: spec.drawing.dimension,
         shapes: shapes.collect(),
-        energy_unit: if spec.coordinate_units.is_empty() {
-            ""
-        } else {
-            " J"
-        },
+        energy_unit: joule(spec),
         runs: films.into_iter().map(Film::shown).collect(),
     };
     let data = serde_json::to_string(&data).map_err(|e| Failure::Failed(e.to_string()))?;

@@ -53,16 +53,12 @@ impl Columns {
     }
 
     /// All outputs and integrals; where there are none, all coordinates.
-    #[must_use]
     pub(crate) fn of_interest(mechanism: &Prepared) -> Self {
+        let mut chosen = all(mechanism);
         let told = |source: &Source| matches!(source, Source::Output(_) | Source::Integral(_));
-        let all = all(mechanism);
-        let mut chosen: Vec<_> = all.iter().filter(|(_, s)| told(s)).cloned().collect();
-        if chosen.is_empty() {
-            let coordinates = all
-                .into_iter()
-                .filter(|(_, s)| matches!(s, Source::Coordinate(_)));
-            chosen = coordinates.collect();
+        match chosen.iter().any(|(_, source)| told(source)) {
+            true => chosen.retain(|(_, source)| told(source)),
+            false => chosen.retain(|(_, source)| matches!(source, Source::Coordinate(_))),
         }
         Columns {
             mechanism: mechanism.clone(),
@@ -76,7 +72,6 @@ impl Columns {
     }
 
     /// The units of the quantities; nothing where none is known.
-    #[must_use]
     pub(crate) fn units(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
         let unit = |source: &Source| match *source {
@@ -95,13 +90,11 @@ impl Columns {
     }
 
     /// The names of the quantities, with units behind where these are known.
-    #[must_use]
     pub(crate) fn labels(&self) -> Vec<String> {
         self.names().zip(self.units()).map(labelled).collect()
     }
 
     /// The same quantities of `mechanism`, which has other parameters.
-    #[must_use]
     pub(crate) fn with(&self, mechanism: &Prepared) -> Self {
         Columns {
             mechanism: mechanism.clone(),
@@ -110,7 +103,6 @@ impl Columns {
     }
 
     /// The values of the quantities at `sample`.
-    #[must_use]
     pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {
         let Sample { t, q, v, integrals } = sample;
         let (mechanism, spec) = (&self.mechanism, self.mechanism.spec());
@@ -142,11 +134,8 @@ fn all(mechanism: &Prepared) -> Vec<(String, Source)> {
     let outputs = spec.outputs.iter().enumerate();
     let integrals = mechanism.integrals().iter().enumerate();
     let mut all = vec![("t".to_owned(), Source::Time)];
-    all.extend(
-        coordinates
-            .clone()
-            .map(|(k, name)| ((*name).to_owned(), Source::Coordinate(k))),
-    );
+    let positions = coordinates.clone();
+    all.extend(positions.map(|(k, name)| ((*name).to_owned(), Source::Coordinate(k))));
     all.extend(coordinates.map(|(k, name)| (format!("dot({name})"), Source::Velocity(k))));
     all.extend(outputs.map(|(k, output)| (output.name.to_owned(), Source::Output(k))));
     all.extend(integrals.map(|(k, integral)| (integral.name.to_owned(), Source::Integral(k))));

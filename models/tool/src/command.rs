@@ -200,9 +200,6 @@ pub fn path(text: &str) -> Result<PathBuf, String> {
 }
 
 /// Reads the path of a file, or `-`, which is standard output.
-///
-/// # Errors
-/// What is wrong.
 pub(crate) fn path_or_stdout(text: &str) -> Result<PathBuf, String> {
     if text.is_empty() {
         return Err("a path is needed".to_owned());

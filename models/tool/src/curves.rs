@@ -14,7 +14,6 @@ use crate::plot::{Chart, Legend, Series, legend_height, round_range, stacked};
 const MOST: usize = 20_000;
 
 /// Items that come one by one, of which every second is left out again and again, so that there are never more than some.
-#[derive(Debug)]
 pub(crate) struct Thinned<T> {
     pub(crate) items: Vec<T>,
     most: usize,
@@ -62,7 +61,6 @@ impl<T> Thinned<T> {
 }
 
 /// A picture of curves that is filled while a motion is computed.
-#[derive(Debug)]
 pub(crate) struct Curves {
     file: WholeFile,
     /// Horizontal and vertical quantities, of each curve one.
@@ -114,9 +112,6 @@ impl Curves {
     }
 
     /// Draws them, in panels of curves that are alike in what they are over and in their units.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] where the file cannot be written.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let rows = self.rows.finish();
         let (over, of) = (self.over.labels(), self.of.labels());
@@ -140,11 +135,10 @@ impl Curves {
             let single = panel.len() == 1;
             // The first lies on top, and comes first in the legend.
             let series = panel.iter().rev().map(|&k| {
-                let points = rows.iter().map(|(x, y)| (x[k], y[k]));
                 // Where something is not finite there is a gap at least.
-                let points: Vec<_> = points
-                    .filter(|(x, y)| x.is_finite() && y.is_finite())
-                    .collect();
+                let points = rows.iter().map(|(x, y)| (x[k], y[k]));
+                let points = points.filter(|(x, y)| x.is_finite() && y.is_finite());
+                let points: Vec<_> = points.collect();
                 let label = if single { "" } else { &of[k] };
                 Series {
                     // A motion without length has no line.

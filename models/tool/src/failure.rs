@@ -7,20 +7,15 @@ use std::path::Path;
 use ukcore::Error;
 
 use crate::numbers::full;
+use crate::output::is_stdout;
 
-/// Exit code of a run that failed: the motion could not be computed, or a file not be written.
-pub const FAILED: u8 = 1;
-/// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
-pub const USAGE: u8 = 2;
-/// Exit code of a sweep of which some runs failed: its table is whole, and tells of each what it failed by.
-pub const PARTLY: u8 = 3;
 /// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
-pub const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Why a command does not end with exit code 0, in words for standard error.
 #[derive(Debug)]
 pub enum Failure {
-    /// The command line is wrong (exit code 2).
+    /// The command line is wrong (exit code 2, which the argument parser uses too).
     Usage(String),
     /// The command is right and failed (exit code 1).
     Failed(String),
@@ -36,9 +31,9 @@ impl Failure {
     /// The exit code to end the program with, as documented by `--help`.
     pub fn code(&self) -> u8 {
         match self {
-            Failure::Usage(_) => USAGE,
-            Failure::Failed(_) => FAILED,
-            Failure::Partly(_) => PARTLY,
+            Failure::Failed(_) => 1,
+            Failure::Usage(_) => 2,
+            Failure::Partly(_) => 3,
             Failure::Interrupted(_) => INTERRUPTED,
             Failure::ReaderGone => 0,
         }
@@ -47,12 +42,8 @@ impl Failure {
     /// What went wrong, without the word `error:` that [`Display`](fmt::Display) puts before it.
     #[must_use]
     pub fn message(&self) -> String {
-        match self {
-            Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
-                message.clone()
-            }
-            other => other.to_string(),
-        }
+        let line = self.to_string();
+        line.strip_prefix(ERROR).unwrap_or(&line).to_owned()
     }
 
     /// The same failure, with the run that it is of before its message; as it is where `run` is empty.
@@ -68,6 +59,11 @@ impl Failure {
         }
     }
 
+    /// What is wrong with the value of the setting or option called `name`.
+    pub(crate) fn value(name: &str) -> impl Fn(String) -> Self {
+        move |error| Failure::Usage(format!("`{name}`: {error}"))
+    }
+
     /// The failure that an error in writing standard output is; none, if its reader is gone.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
@@ -77,18 +73,24 @@ impl Failure {
         }
     }
 
-    /// The failure that an error in writing the file `path` is.
+    /// The failure that an error in writing the file `path` is, or standard output where that is `-`.
     pub fn file(path: &Path, error: &io::Error) -> Self {
+        if is_stdout(path) {
+            return Failure::stdout(error);
+        }
         Failure::Failed(format!("cannot write {}: {error}", path.display()))
     }
 }
+
+/// What stands before a message on standard error.
+const ERROR: &str = "error: ";
 
 /// The line for standard error.
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
-                write!(f, "error: {message}")
+                write!(f, "{ERROR}{message}")
             }
             Failure::Interrupted(message) => f.write_str(message),
             Failure::ReaderGone => f.write_str("the reader of standard output is gone"),
@@ -146,10 +148,10 @@ mod tests {
     fn names_are_usage_errors_and_the_rest_is_not() {
         let unknown = Error::unknown_name("model", "uchian", &mut ["uchain", "fish"].into_iter());
         let failure = Failure::from(unknown);
-        assert_eq!(failure.code(), USAGE);
+        assert_eq!(failure.code(), 2);
         assert!(failure.to_string().contains("did you mean `uchain`"));
         let steps = Failure::from(Error::TooManySteps { steps: 3 });
-        assert_eq!(steps.code(), FAILED);
+        assert_eq!(steps.code(), 1);
         // As the command line has them.
         for name in ["`--max-steps`", "`--method radau5`"] {
             assert!(steps.message().contains(name), "{steps}");
@@ -165,7 +167,7 @@ mod tests {
         };
         let late = Failure::from(late);
         assert_eq!(late.message(), "at t = 0.5: `--until` is 1, so far that …");
-        assert_eq!(late.code(), FAILED);
+        assert_eq!(late.code(), 1);
     }
 
     #[test]
@@ -173,6 +175,6 @@ mod tests {
         let gone = io::Error::from(io::ErrorKind::BrokenPipe);
         assert_eq!(Failure::stdout(&gone).code(), 0);
         let full = io::Error::from(io::ErrorKind::StorageFull);
-        assert_eq!(Failure::stdout(&full).code(), FAILED);
+        assert_eq!(Failure::stdout(&full).code(), 1);
     }
 }

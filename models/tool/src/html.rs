@@ -197,17 +197,26 @@ pub fn embedded(file: &str, text: &str, caption: impl Render) -> Markup {
     }
 }
 
-/// A part of a page, with a heading that is numbered and a link at the top of the page.
+/// A part of a page, with a heading that is numbered and a link at the top of the page; where its body is empty it is not written at all.
 #[derive(Debug, Clone)]
 pub struct Section {
-    /// Its anchor.
-    pub id: &'static str,
-    /// The text of the link.
-    pub link: &'static str,
-    /// The heading.
-    pub title: &'static str,
-    /// What follows; if there is nothing, neither heading nor link is written.
-    pub body: Markup,
+    id: &'static str,
+    link: &'static str,
+    title: &'static str,
+    body: Markup,
+}
+
+impl Section {
+    /// A section with its anchor, the text of its link, its heading and what follows.
+    #[must_use]
+    pub fn new(id: &'static str, link: &'static str, title: &'static str, body: Markup) -> Self {
+        Section {
+            id,
+            link,
+            title,
+            body,
+        }
+    }
 }
 
 /// A page of numbered sections that are linked at its top, in the style of reports.
@@ -321,12 +330,7 @@ mod tests {
 
     #[test]
     fn a_page_links_what_it_has() {
-        let section = |id, body| Section {
-            id,
-            link: id,
-            title: "Title",
-            body,
-        };
+        let section = |id, body| Section::new(id, id, "Title", body);
         let page = Page {
             title: "A & B",
             head: html! {},

@@ -1,5 +1,6 @@
 //! The signals that ask a program to end (Ctrl-C, and what `kill` sends): they end a run in order.
 
+use std::ops::ControlFlow;
 use std::process;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,9 +8,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::output::discard_unfinished;
 
-/// A flag that is set once the user has asked the program to end, by Ctrl-C or SIGTERM.
+/// Knows whether the user has asked the program to end, by Ctrl-C or SIGTERM.
 #[derive(Debug, Clone, Copy)]
-pub struct Interrupt(&'static AtomicBool);
+pub(crate) struct Interrupt(());
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 static CAUGHT: OnceLock<Result<(), String>> = OnceLock::new();
@@ -19,7 +20,7 @@ impl Interrupt {
     ///
     /// # Errors
     /// [`Failure::Failed`] if the system does not let the signal be caught.
-    pub fn catch() -> Result<Self, Failure> {
+    pub(crate) fn catch() -> Result<Self, Failure> {
         let handle = || {
             if ASKED.swap(true, Ordering::Relaxed) {
                 discard_unfinished();
@@ -28,23 +29,23 @@ impl Interrupt {
         };
         let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(handle).map_err(|e| e.to_string()));
         match caught {
-            Ok(()) => Ok(Interrupt(&ASKED)),
+            Ok(()) => Ok(Interrupt(())),
             Err(e) => Err(Failure::Failed(format!(
                 "cannot catch the interrupt signal: {e}"
             ))),
         }
     }
 
-    /// A flag that is never set, for a computation that nobody interrupts.
-    #[must_use]
-    pub fn never() -> Self {
-        static NEVER: AtomicBool = AtomicBool::new(false);
-        Interrupt(&NEVER)
+    /// Whether a computation goes on: not once the user has asked.
+    pub(crate) fn flow(self) -> ControlFlow<()> {
+        match self.is_set() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 
     /// Whether the user has asked the program to end.
-    #[must_use]
-    pub fn is_set(self) -> bool {
-        self.0.load(Ordering::Relaxed)
+    pub(crate) fn is_set(self) -> bool {
+        ASKED.load(Ordering::Relaxed)
     }
 }

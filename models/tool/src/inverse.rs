@@ -9,7 +9,7 @@ use ukcore::{Effort, Error, Inverse};
 
 use crate::failure::Failure;
 use crate::motion::{self, INTERVALS, Motion};
-use crate::numbers::{full, significant, width};
+use crate::numbers::{extremes, full, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
@@ -109,10 +109,7 @@ fn summary(
     let spec = ready.mechanism.spec();
     let wide = width(first.iter().map(|e| e.name));
     for (k, motor) in first.iter().enumerate() {
-        let efforts = samples.iter().map(|(_, efforts)| efforts[k].effort);
-        let (least, most) = efforts.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-            (least.min(x), most.max(x))
-        });
+        let (least, most) = extremes(samples.iter().map(|(_, efforts)| efforts[k].effort));
         let powers = samples.iter().map(|(t, efforts)| (*t, efforts[k].power));
         let (at, power) = powers.clone().fold((0.0, 0.0), |best: (f64, f64), now| {
             if now.1.abs() > best.1.abs() {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
-use ukcore::{Effort, Kinematics, Prepared, State, kinematics as swept};
+use ukcore::{Effort, Kinematics, State, kinematics as swept};
 
 use crate::columns::{Columns, labelled};
 use crate::command;
@@ -46,13 +46,8 @@ pub struct KinematicsArgs {
 /// Drives by name, from value to value.
 type Ranges<'a> = Vec<(&'a str, Range<f64>)>;
 
-/// What `--drive` says.
-#[derive(Debug, Clone)]
-pub struct Drive {
-    name: String,
-    ends: [Quantity; 2],
-    step: Option<Quantity>,
-}
+/// What `--drive` says: a name, from where to where it goes, and in which steps.
+pub type Drive = (String, [Quantity; 2], Option<Quantity>);
 
 /// Intervals where no step is given, and at most.
 const INTERVALS: usize = 200;
@@ -62,11 +57,7 @@ const MOST: f64 = 1e6;
 fn drive(text: &str) -> Result<Drive, String> {
     let (name, values) = units::split(text, "FROM..TO")?;
     let (ends, step) = units::range(name, values)?;
-    Ok(Drive {
-        name: name.to_owned(),
-        ends,
-        step,
-    })
+    Ok((name.to_owned(), ends, step))
 }
 
 /// Sweeps the drives of a model, and prints what is reached, the limits of motion, and the range of each output.
@@ -77,16 +68,14 @@ fn drive(text: &str) -> Result<Drive, String> {
 pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure> {
     let to_stdout = args.csv.as_deref().is_some_and(output::is_stdout);
     let plot = args.plot.as_ref().and_then(|asked| asked.first());
-    let file = args.csv.as_deref().filter(|_| !to_stdout);
-    output::apart(&[("--csv", file), ("--plot", plot.map(Path::new))])?;
+    let plot = plot.map(Path::new);
+    output::apart(&[("--csv", args.csv.as_deref()), ("--plot", plot)])?;
     let ready = args.scene.ready(models)?;
     let (drives, intervals) = ranges(&ready, &args.drives)?;
     let (name, _) = &drives[0];
-    let speed = args.speed.as_ref().map(|speed| {
-        let speed = speed.si_rate(unit(&ready, name));
-        speed.map_err(|e| Failure::Usage(format!("`--speed`: {e}")))
-    });
-    let speed = speed.transpose()?;
+    let speed = args.speed.as_ref();
+    let speed = speed.map(|speed| speed.si_rate(unit(&ready, name)));
+    let speed = speed.transpose().map_err(Failure::value("--speed"))?;
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| over(&ready, name, asked));
     let hold = args.scene.start.place.held();
@@ -101,24 +90,31 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         return Err(Failure::Failed(message));
     }
     if let Some(mut curves) = curves.transpose()? {
-        found
-            .postures
-            .iter()
-            .for_each(|p| curves.add(Sample::from(&p.state)));
+        let states = found.postures.iter().map(|p| Sample::from(&p.state));
+        states.for_each(|sample| curves.add(sample));
         curves.finish()?;
     }
     let on: Vec<&str> = args.effort.iter().map(String::as_str).collect();
+    let efforts = match on.is_empty() {
+        true => vec![Vec::new(); found.postures.len()],
+        false => found.efforts(&on)?,
+    };
+    let spec = ready.mechanism.spec();
+    let named = efforts[0].iter().flat_map(|e| {
+        let coordinate = spec.coordinate_index(e.name);
+        let unit = units::effort(coordinate.map_or("", |j| spec.coordinate_unit(j)));
+        let watt = unit.as_ref().map_or("", |_| "W").to_owned();
+        let pair = [("effort", unit.unwrap_or_default()), ("power", watt)];
+        pair.map(|(what, unit)| (format!("{what}({})", e.name), unit))
+    });
+    let numbers = |of: &Vec<Effort>| of.iter().flat_map(|e| [e.effort, e.power]).collect();
     let found = Found {
-        efforts: match on.is_empty() {
-            true => vec![Vec::new(); found.postures.len()],
-            false => found.efforts(&on)?,
-        },
+        efforts: named.collect(),
+        values: efforts.iter().map(numbers).collect(),
         swept: found,
     };
-    match args.csv.as_deref() {
-        None => {}
-        Some(_) if to_stdout => output::to_stdout(|out| table(out, &ready, &found))?,
-        Some(path) => write_whole(path, |out| table(out, &ready, &found))?,
+    if let Some(path) = &args.csv {
+        write_whole(path, |out| table(out, &ready, &found))?;
     }
     if to_stdout {
         return Ok(());
@@ -126,32 +122,12 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
 }
 
-/// Postures and limits, and of each posture the efforts asked for.
+/// Postures and limits, and of each posture the efforts and powers asked for.
 struct Found {
     swept: Kinematics,
-    efforts: Vec<Vec<Effort>>,
-}
-
-impl Found {
-    fn effort_names(&self) -> impl Iterator<Item = String> {
-        let efforts = self.efforts.first().into_iter().flatten();
-        efforts.flat_map(|e| ["effort", "power"].map(|what| format!("{what}({})", e.name)))
-    }
-
-    /// The same with units, where these are known.
-    fn effort_labels(&self, mechanism: &Prepared) -> Vec<String> {
-        let spec = mechanism.spec();
-        let units = self.efforts.first().into_iter().flatten().flat_map(|e| {
-            let coordinate = spec
-                .coordinate_index(e.name)
-                .map(|j| spec.coordinate_unit(j));
-            match units::effort(coordinate.unwrap_or("")) {
-                Some(unit) => [unit, "W".to_owned()],
-                None => [const { String::new() }; 2],
-            }
-        });
-        self.effort_names().zip(units).map(labelled).collect()
-    }
+    /// Their names and units.
+    efforts: Vec<(String, String)>,
+    values: Vec<Vec<f64>>,
 }
 
 /// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
@@ -182,36 +158,31 @@ fn unit(ready: &Ready<'_>, name: &str) -> &'static str {
 fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usize), Failure> {
     let mut ranges = Vec::new();
     let mut intervals = INTERVALS;
-    for (k, drive) in asked.iter().enumerate() {
-        let unit = unit(ready, &drive.name);
-        let si = |quantity: &Quantity| {
-            let value = quantity.si(unit);
-            value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))
-        };
-        let [from, mut to] = [si(&drive.ends[0])?, si(&drive.ends[1])?];
-        if let Some(step) = &drive.step {
+    for (k, (name, [from, to], step)) in asked.iter().enumerate() {
+        let unit = unit(ready, name);
+        let si = |quantity: &Quantity| quantity.si(unit).map_err(Failure::value(name));
+        let (from, mut to) = (si(from)?, si(to)?);
+        if let Some(step) = step {
             let step = si(step)?;
             let steps = (to - from) / step;
-            if k > 0 {
-                let message = format!(
-                    "`{}` goes along with `{}`, which alone has a step",
-                    drive.name, asked[0].name
-                );
-                return Err(Failure::Usage(message));
-            }
-            if steps < 0.0 {
-                let message = format!(
-                    "`{}`: steps of {step} lead from {from} away from {to}; give the step the other sign",
-                    drive.name
-                );
-                return Err(Failure::Usage(message));
-            }
-            if !(1.0 - 1e-9..MOST).contains(&steps) {
-                let message = format!(
-                    "`{}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}",
-                    drive.name
-                );
-                return Err(Failure::Usage(message));
+            let refusal = if k > 0 {
+                let first = &asked[0].0;
+                Some(format!(
+                    "`{name}` goes along with `{first}`, which alone has a step"
+                ))
+            } else if steps < 0.0 {
+                Some(format!(
+                    "`{name}`: steps of {step} lead from {from} away from {to}; give the step the other sign"
+                ))
+            } else if !(1.0 - 1e-9..MOST).contains(&steps) {
+                Some(format!(
+                    "`{name}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}"
+                ))
+            } else {
+                None
+            };
+            if let Some(refusal) = refusal {
+                return Err(Failure::Usage(refusal));
             }
             // A last step that rounding puts beyond the end is meant; what is left behind the last one is not swept.
             intervals = (steps * (1.0 + 1e-9)).floor() as usize;
@@ -219,7 +190,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
                 to = from + step * intervals as f64;
             }
         }
-        ranges.push((drive.name.as_str(), from..to));
+        ranges.push((name.as_str(), from..to));
     }
     Ok((ranges, intervals))
 }
@@ -232,14 +203,13 @@ fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()
     head.extend(coords().map(|name| format!("dot({name})")));
     head.extend(spec.outputs.iter().map(|o| o.name.to_owned()));
     head.extend(coords().map(|name| format!("ddot({name})")));
-    head.extend(found.effort_names());
+    head.extend(found.efforts.iter().map(|(name, _)| name.clone()));
     writeln!(out, "{}", head.join(","))?;
     let mut outputs = vec![0.0; spec.outputs.len()];
-    for (posture, efforts) in found.swept.postures.iter().zip(&found.efforts) {
+    for (posture, efforts) in found.swept.postures.iter().zip(&found.values) {
         let State { t, q, v } = &posture.state;
         ready.mechanism.outputs(*t, q, v, &mut outputs);
-        let efforts: Vec<f64> = efforts.iter().flat_map(|e| [e.effort, e.power]).collect();
-        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, &efforts].concat();
+        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, efforts].concat();
         let text = |x: f64| {
             if x.is_finite() {
                 full(x)
@@ -285,15 +255,13 @@ fn summary(
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
     let columns = Columns::of_interest(&ready.mechanism);
     let mut labels = columns.labels();
-    labels.extend(found.effort_labels(&ready.mechanism));
+    labels.extend(found.efforts.iter().cloned().map(labelled));
     let wide = width(labels.iter().map(String::as_str));
     let rows = postures
         .iter()
-        .zip(&found.efforts)
+        .zip(&found.values)
         .map(|(posture, efforts)| {
-            let mut row = columns.values(Sample::from(&posture.state));
-            row.extend(efforts.iter().flat_map(|e| [e.effort, e.power]));
-            row
+            [&columns.values(Sample::from(&posture.state)), &efforts[..]].concat()
         });
     let rows: Vec<Vec<f64>> = rows.collect();
     for (k, label) in labels.iter().enumerate() {
@@ -312,8 +280,7 @@ fn summary(
             )?;
         }
     }
-    let mut all = found.efforts.iter().flatten();
-    if found.efforts.iter().any(|e| !e.is_empty()) && all.all(|e| e.effort == 0.0) {
+    if !found.efforts.is_empty() && found.values.iter().flatten().all(|x| *x == 0.0) {
         writeln!(
             out,
             "note: the constraints make this motion by themselves, so that forces on coordinates are not needed; what drives it `inverse` tells"

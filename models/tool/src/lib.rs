@@ -42,7 +42,7 @@ pub mod drift;
 pub mod explain;
 pub mod failure;
 pub mod html;
-pub mod interrupt;
+mod interrupt;
 pub mod inverse;
 pub mod kinematics;
 pub mod list;
@@ -66,8 +66,7 @@ mod ways;
 
 pub use ukcore::model::Entry;
 
-/// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `sweep`, `animate`,
-/// `modes`, `diagnose`, `inverse`, `kinematics`, `explain`, `report` and `stability`.
+/// The whole of a program for the mechanisms declared beside it: a `main` function with all commands of the [crate].
 ///
 /// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
 /// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.

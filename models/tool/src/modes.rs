@@ -86,10 +86,9 @@ fn place(
         largest(&state.v),
     );
     for (i, ((name, q), v)) in names.iter().zip(&state.q).zip(&state.v).enumerate() {
-        let rate = if *v == 0.0 {
-            String::new()
-        } else {
-            format!("   dot {}", number(*v, speed))
+        let rate = match *v {
+            0.0 => String::new(),
+            v => format!("   dot {}", number(v, speed)),
         };
         let unit = ready.mechanism.spec().coordinate_unit(i);
         let line = format!("  {name:<wide$}  {}{rate} {unit}", number(*q, size));
@@ -122,10 +121,9 @@ fn limits(out: &mut dyn Write, ready: &Ready<'_>, state: &State) -> io::Result<(
     for remark in &told {
         writeln!(out, "note: {remark}")?;
     }
-    if told.is_empty() {
-        Ok(())
-    } else {
-        writeln!(out)
+    match told.is_empty() {
+        true => Ok(()),
+        false => writeln!(out),
     }
 }
 
@@ -134,12 +132,10 @@ fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
         growth, frequency, ..
     } = *mode;
     let size = mode.size();
+    let growing = format!("growth {} 1/s", number(growth, size));
     if size == 0.0 {
         writeln!(out, "0 rad/s: a displacement that costs nothing")?;
-        return shape(out, ready, mode);
-    }
-    let growing = format!("growth {} 1/s", number(growth, size));
-    if frequency > 0.0 {
+    } else if frequency > 0.0 {
         let (hertz, damping) = (number(frequency / TAU, 0.0), number(mode.damping(), 1.0));
         let frequency = number(frequency, 0.0);
         writeln!(
@@ -149,10 +145,6 @@ fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     } else {
         writeln!(out, "{growing}")?;
     }
-    shape(out, ready, mode)
-}
-
-fn shape(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     let names = ready.mechanism.spec().coords;
     let parts = names.iter().zip(&mode.shape);
     let lines = lines(parts.filter_map(|(name, deviation)| moves(name, *deviation)));

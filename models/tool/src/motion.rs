@@ -57,16 +57,6 @@ impl Motion {
         (!matches!(self.method, Method::Rattle { .. })).then_some(self.tol)
     }
 
-    /// What computes it.
-    pub(crate) fn simulation(&self, ready: &Ready<'_>) -> Simulation {
-        Simulation::new(&ready.mechanism)
-            .start(ready.state.clone())
-            .method(self.method)
-            .tolerance(self.tol)
-            .max_steps(self.max_steps)
-            .stabilise(self.stabilise)
-    }
-
     /// Computes it and hands over samples at this interval, or at each step, until one breaks it off; why it ends early, if it does by an
     /// error.
     ///
@@ -76,32 +66,50 @@ impl Motion {
         &self,
         ready: &Ready<'_>,
         every: Option<f64>,
-        mut each: impl FnMut(Sample<'_>) -> ControlFlow<()>,
+        each: impl FnMut(Sample<'_>) -> ControlFlow<()>,
     ) -> Result<(Trajectory, Option<Error>), Failure> {
         let (from, length) = (ready.state.t, self.length(ready));
         let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&ready.entry.id));
         let bar = progress.clone();
-        let mut simulation = self.simulation(ready).progress(move |now| {
-            bar.set((now.t - from) / length, || format!("t = {:.3} s", now.t));
-            if interrupt.is_set() {
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
+        let watch = move |t| bar.set((t - from) / length, || format!("t = {t:.3} s"));
+        let done = self.stream(ready, every, interrupt, watch, each);
+        progress.finish();
+        match done {
+            (_, Some(error @ Error::InvalidSetting { .. })) => Err(error.into()),
+            done => Ok(done),
+        }
+    }
+
+    /// The same until an interrupt, with the times that are reached told to `watch`.
+    pub(crate) fn stream(
+        &self,
+        ready: &Ready<'_>,
+        every: Option<f64>,
+        interrupt: Interrupt,
+        watch: impl Fn(f64) + Send + 'static,
+        mut each: impl FnMut(Sample<'_>) -> ControlFlow<()>,
+    ) -> (Trajectory, Option<Error>) {
+        let simulation = Simulation::new(&ready.mechanism)
+            .start(ready.state.clone())
+            .method(self.method)
+            .tolerance(self.tol)
+            .max_steps(self.max_steps)
+            .stabilise(self.stabilise);
+        let mut simulation = simulation.progress(move |now| {
+            watch(now.t);
+            interrupt.flow()
         });
         if let Some(interval) = every {
             simulation = simulation.every(interval);
         }
-        let result = simulation.stream(from + length, |record| match record {
+        let end = ready.state.t + self.length(ready);
+        let result = simulation.stream(end, |record| match record {
             Record::Sample(sample) => each(sample),
             _ => ControlFlow::Continue(()),
         });
-        progress.finish();
         match result {
-            Ok(trajectory) => Ok((trajectory, None)),
-            Err(failure) if matches!(failure.error, Error::InvalidSetting { .. }) => {
-                Err(failure.error.into())
-            }
-            Err(failure) => Ok((*failure.trajectory, Some(failure.error))),
+            Ok(trajectory) => (trajectory, None),
+            Err(failure) => (*failure.trajectory, Some(failure.error)),
         }
     }
 

@@ -3,20 +3,17 @@
 pub use ukcore::numbers::{fixed, full, short, significant};
 
 /// A number of things in words: `1 step`, `2 steps`.
-#[must_use]
-pub fn count(number: usize, thing: &str) -> String {
+pub(crate) fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {thing}{plural}")
 }
 
 /// The number of fifteen digits next to `value`: 0.3 for 0.1 + 2·0.1, as is meant by who writes fewer.
-#[must_use]
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 /// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
-#[must_use]
 pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
     let text = match in_degrees(value, unit) {
         Some(degrees) => format!("{name} = {degrees} deg"),
@@ -32,8 +29,7 @@ pub(crate) fn in_degrees(value: f64, unit: &str) -> Option<String> {
 }
 
 /// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
-#[must_use]
-pub fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1e-3 => (1e6 * s, "µs"),
         s if s < 1.0 => (1e3 * s, "ms"),
@@ -48,8 +44,7 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// The number of characters of the longest of some names; 0 if there is none.
-#[must_use]
-pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
+pub(crate) fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     let lengths = names.into_iter().map(|n| n.chars().count());
     lengths.max().unwrap_or(0)
 }
@@ -58,7 +53,6 @@ pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
 const LINE: usize = 84;
 
 /// Entries with commas between them, in lines as long as reads well where the entries allow it.
-#[must_use]
 pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for entry in entries {
@@ -77,9 +71,18 @@ pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
     lines
 }
 
-/// The median of some numbers: of two in the middle the larger; nothing if there is none.
+/// The least and the greatest of some numbers, of which what is none is passed over; ∞ and −∞ if there is none.
 #[must_use]
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
+pub fn extremes(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+    let values = values.into_iter();
+    values.fold((least, greatest), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
+}
+
+/// The median of some numbers: of two in the middle the larger; nothing if there is none.
+pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
 }

@@ -11,15 +11,14 @@ use tempfile::NamedTempFile;
 use crate::failure::Failure;
 
 /// A file being written: a temporary one beside it, which takes its name once all is written. A reader sees the old file or the new one,
-/// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
-#[derive(Debug)]
-pub struct WholeFile {
-    /// The name that was asked for; none for standard output.
-    path: Option<PathBuf>,
+/// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly. `-` is standard output, of which
+/// each line is handed on at once.
+pub(crate) struct WholeFile {
+    /// The name that was asked for.
+    path: PathBuf,
     kind: Kind,
 }
 
-#[derive(Debug)]
 enum Kind {
     Temporary(BufWriter<NamedTempFile>, PathBuf),
     Direct(BufWriter<File>),
@@ -28,12 +27,10 @@ enum Kind {
 
 impl WholeFile {
     /// Begins the file `path`. Where that is not possible it is known here, before a long computation whose result would be lost.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
-    pub fn create(path: &Path) -> Result<Self, Failure> {
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let kind = match fs::metadata(&target) {
+            _ if is_stdout(path) => Ok(Kind::Stdout(io::stdout())),
             Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(there) if !there.is_file() => {
                 let file = File::options().write(true).open(&target);
@@ -41,40 +38,32 @@ impl WholeFile {
             }
             _ => temporary(&target).map(|file| Kind::Temporary(BufWriter::new(file), target)),
         };
-        let path = Some(path.to_path_buf());
+        let path = path.to_path_buf();
         match kind {
             Ok(kind) => Ok(WholeFile { path, kind }),
-            Err(error) => Err(failure(path.as_deref(), &error)),
-        }
-    }
-
-    /// Standard output, of which each line is handed on at once.
-    #[must_use]
-    pub fn stdout() -> Self {
-        WholeFile {
-            path: None,
-            kind: Kind::Stdout(io::stdout()),
+            Err(error) => Err(Failure::file(&path, &error)),
         }
     }
 
     /// Writes `bytes` and gives the file its name.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
     pub(crate) fn finish_with(mut self, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
         let done = self.write_all(bytes.as_ref());
-        done.map_err(|e| failure(self.path.as_deref(), &e))?;
+        done.map_err(|e| Failure::file(&self.path, &e))?;
         self.finish()
     }
 
+    fn out(&mut self) -> &mut dyn Write {
+        match &mut self.kind {
+            Kind::Temporary(file, _) => file,
+            Kind::Direct(file) => file,
+            Kind::Stdout(out) => out,
+        }
+    }
+
     /// Ends the file: from here on it stands under its name, whole.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the file.
-    pub fn finish(self) -> Result<(), Failure> {
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
         let done = match self.kind {
-            Kind::Stdout(mut out) => out.flush(),
-            Kind::Direct(mut file) => file.flush(),
+            Kind::Stdout(_) | Kind::Direct(_) => self.flush(),
             Kind::Temporary(file, target) => match file.into_inner() {
                 Ok(file) => {
                     unfinished().retain(|path| path != file.path());
@@ -83,7 +72,7 @@ impl WholeFile {
                 Err(error) => Err(error.into_error()),
             },
         };
-        done.map_err(|e| failure(self.path.as_deref(), &e))
+        done.map_err(|e| Failure::file(&self.path, &e))
     }
 }
 
@@ -105,7 +94,7 @@ pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
     };
     // What is no file, such as /dev/null, takes what all write.
     let files = named.iter().filter_map(|(option, path)| {
-        let place = place((*path)?)?;
+        let place = place(path.filter(|path| !is_stdout(path))?)?;
         (place.is_file() || !place.exists()).then_some((option, place))
     });
     let files: Vec<_> = files.collect();
@@ -120,29 +109,13 @@ pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A failure to write the file `path`, or standard output.
-pub(crate) fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
-    match path {
-        Some(path) => Failure::file(path, error),
-        None => Failure::stdout(error),
-    }
-}
-
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.kind {
-            Kind::Temporary(file, _) => file.write(bytes),
-            Kind::Direct(file) => file.write(bytes),
-            Kind::Stdout(out) => out.write(bytes),
-        }
+        self.out().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.kind {
-            Kind::Temporary(file, _) => file.flush(),
-            Kind::Direct(file) => file.flush(),
-            Kind::Stdout(out) => out.flush(),
-        }
+        self.out().flush()
     }
 }
 
@@ -197,11 +170,8 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Writes the [whole file](WholeFile) `path` through `fill`.
-///
-/// # Errors
-/// [`Failure::Failed`] naming the file; what stood there before stands there still.
-pub fn write_whole(
+/// Writes the [whole file](WholeFile) `path` through `fill`; where that fails, what stood there before stands there still.
+pub(crate) fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
@@ -248,7 +218,14 @@ impl Directory {
         self.path.join(name)
     }
 
-    /// Writes the [whole file](WholeFile) `name`, which may lie in a directory below.
+    /// The last line at the terminal: what is done, how long it took, and where the page is.
+    #[must_use]
+    pub fn told(&self, done: &str, seconds: f64) -> String {
+        let page = self.file("index.html");
+        format!("{done} in {seconds:.1} s; the report is {}", page.display())
+    }
+
+    /// Writes the whole file `name`, which may lie in a directory below.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -260,7 +237,7 @@ impl Directory {
         write_whole(&path, |w| w.write_all(bytes.as_ref()))
     }
 
-    /// Writes `value` as JSON to the [whole file](WholeFile) `name`.
+    /// Writes `value` as JSON to the whole file `name`.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -268,7 +245,7 @@ impl Directory {
         write_whole(&self.file(name), |w| json(w, value))
     }
 
-    /// Writes `rows` as comma-separated values, under the names of their fields, to the [whole file](WholeFile) `name`.
+    /// Writes `rows` as comma-separated values, under the names of their fields, to the whole file `name`.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -288,10 +265,7 @@ impl Directory {
 }
 
 /// Writes `value` as JSON with a line's end.
-///
-/// # Errors
-/// What writing to `out` reports.
-pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
+pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }

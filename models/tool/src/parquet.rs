@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use csv::StringRecord;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
@@ -29,9 +29,6 @@ const TEXT: [&str; 4] = ["start", "method", "stabilisation", "error"];
 const WHOLE: [&str; 5] = ["member", "steps", "rejected", "evaluations", "fallbacks"];
 
 /// Writes the `table`, as `sweep` leaves it, to `out`. What a row does not have is null.
-///
-/// # Errors
-/// [`Failure::Failed`] where the table cannot be read, or the file not be written.
 pub(crate) fn write(table: &Path, out: &Path) -> Result<(), Failure> {
     let broken = |e: &dyn Display| Failure::Failed(format!("cannot read {}: {e}", table.display()));
     let file = File::open(table).map_err(|e| broken(&e))?;
@@ -89,40 +86,31 @@ fn group<W: Write + Send>(
     for (k, name) in names.iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).unwrap_or_default());
         let known: Vec<i16> = cells().map(|cell| i16::from(!cell.is_empty())).collect();
-        let there = || cells().filter(|cell| !cell.is_empty());
-        let Some(mut column) = group.next_column()? else {
+        let there = cells().filter(|cell| !cell.is_empty());
+        let Some(column) = group.next_column()? else {
             break;
         };
-        fill(&mut column, name, &known, there)?;
-        column.close()?;
+        if TEXT.contains(&name.as_str()) {
+            let texts: Vec<_> = there.map(ByteArray::from).collect();
+            fill::<ByteArrayType>(column, &known, &texts)?;
+        } else if WHOLE.contains(&name.as_str()) {
+            fill::<Int64Type>(column, &known, &numbers(name, there)?)?;
+        } else {
+            fill::<DoubleType>(column, &known, &numbers(name, there)?)?;
+        }
     }
     group.close().map(|_| ())
 }
 
 /// Writes what a column has, where it is `known`.
-fn fill<'a, I: Iterator<Item = &'a str>>(
-    column: &mut SerializedColumnWriter<'_>,
-    name: &str,
+fn fill<T: DataType>(
+    mut column: SerializedColumnWriter<'_>,
     known: &[i16],
-    there: impl Fn() -> I,
+    values: &[T::T],
 ) -> Result<(), ParquetError> {
-    let known = Some(known);
-    if TEXT.contains(&name) {
-        let values: Vec<ByteArray> = there().map(ByteArray::from).collect();
-        let column = column.typed::<ByteArrayType>();
-        column.write_batch(&values, known, None)?;
-    } else if WHOLE.contains(&name) {
-        let values = numbers::<i64>(name, there())?;
-        column
-            .typed::<Int64Type>()
-            .write_batch(&values, known, None)?;
-    } else {
-        let values = numbers::<f64>(name, there())?;
-        column
-            .typed::<DoubleType>()
-            .write_batch(&values, known, None)?;
-    }
-    Ok(())
+    let typed = column.typed::<T>();
+    typed.write_batch(values, Some(known), None)?;
+    column.close()
 }
 
 fn numbers<'a, T: FromStr>(

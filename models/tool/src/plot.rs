@@ -17,16 +17,16 @@
 use std::ops::Range;
 
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{
-    AsRangedCoord, DefaultFormatting, KeyPointHint, Ranged, ValueFormatter,
-};
-use plotters::coord::types::RangedCoordf64;
+use plotters::coord::combinators::{LogCoord, WithKeyPoints};
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+pub use plotters::chart::SeriesLabelPosition as Place;
 pub use plotters::style::RGBColor;
 
 use crate::failure::Failure;
+use crate::numbers::extremes;
 
 /// Okabe and Ito's palette, told apart with every common colour vision; the order puts strong contrasts first.
 pub const COLOURS: [RGBColor; 6] = [
@@ -40,7 +40,7 @@ pub const COLOURS: [RGBColor; 6] = [
 /// The colour of curves to compare with, as those of a free fall.
 pub const GREY: RGBColor = RGBColor(120, 120, 120);
 
-pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
+const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
 /// The drawing library knows whole numbers alone: charts are drawn in so many parts of a pixel.
@@ -95,22 +95,14 @@ impl Series {
 }
 
 /// The place of the legend of a [`Chart`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Legend {
     /// Nowhere.
     None,
     /// Above the frame, in two columns.
     Above,
-    /// Within the frame, like those that follow.
-    UpperLeft,
-    /// At the middle of the upper edge.
-    UpperMiddle,
-    /// At the middle of the lower edge.
-    LowerMiddle,
-    /// In the lower left corner.
-    LowerLeft,
-    /// In the lower right corner.
-    LowerRight,
+    /// Within the frame.
+    Within(Place),
 }
 
 /// The division of both axes of a [`Chart`].
@@ -158,7 +150,7 @@ impl Chart {
             y: round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1))),
             series,
             scale: Scale::Linear,
-            legend: Legend::LowerRight,
+            legend: Legend::Within(Place::LowerRight),
             size: (560, 360),
         }
     }
@@ -171,17 +163,17 @@ impl Chart {
         svg(self.size, PARTS, |area| self.draw(area))
     }
 
-    fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
+    fn draw<'a>(&self, area: &Area<'a>) -> Result<(), DrawError<'a>> {
         let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
         match self.scale {
             Scale::Linear => self.draw_on(area, x, y, tick),
-            Scale::Decades => self.draw_on(area, Exponents::new(&x), Exponents::new(&y), power),
+            Scale::Decades => self.draw_on(area, powers(&x), powers(&y), power),
         }
     }
 
     fn draw_on<'a, X, Y>(
         &self,
-        area: &DrawingArea<SVGBackend<'a>, Shift>,
+        area: &Area<'a>,
         x: X,
         y: Y,
         tick: fn(f64) -> String,
@@ -217,19 +209,14 @@ impl Chart {
             .y_labels(8)
             .draw()?;
         for series in &self.series {
-            draw_series(&mut chart, series, self.scale)?;
+            draw_series(&mut chart, series)?;
         }
-        let position = match self.legend {
-            Legend::None | Legend::Above => return Ok(()),
-            Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
-            Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
-            Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
-            Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
-            Legend::LowerRight => SeriesLabelPosition::LowerRight,
+        let Legend::Within(place) = &self.legend else {
+            return Ok(());
         };
         chart
             .configure_series_labels()
-            .position(position)
+            .position(place.clone())
             .margin(8 * PARTS)
             .legend_area_size(30 * PARTS)
             .background_style(WHITE.mix(0.85))
@@ -263,10 +250,7 @@ pub fn stacked(charts: &[Chart]) -> Result<String, Failure> {
 
 impl Chart {
     /// The legend, if it stands above the frame; what is left of the area for the frame then.
-    fn draw_legend_above<'a>(
-        &self,
-        area: &DrawingArea<SVGBackend<'a>, Shift>,
-    ) -> Result<Option<DrawingArea<SVGBackend<'a>, Shift>>, DrawError<'a>> {
+    fn draw_legend_above<'a>(&self, area: &Area<'a>) -> Result<Option<Area<'a>>, DrawError<'a>> {
         if self.legend != Legend::Above {
             return Ok(None);
         }
@@ -276,9 +260,6 @@ impl Chart {
         let (legend, frame) = area.split_vertically(legend_height(named().count()) * PARTS);
         let column = self.size.0 as i32 / 2 - 10;
         let at = |x: i32, y: i32| (x * PARTS as i32, y * PARTS as i32);
-        let text = (FONT, TICK_SIZE * PARTS)
-            .into_text_style(&legend)
-            .pos(Pos::new(HPos::Left, VPos::Center));
         for (k, series) in named().enumerate() {
             let (x, y) = (
                 16 + column * (k / rows) as i32,
@@ -297,24 +278,35 @@ impl Chart {
                 let size = series.dots * PARTS;
                 legend.draw(&Circle::new(at(x + 13, y), size, series.colour.filled()))?;
             }
-            legend.draw(&Text::new(
-                series.label.as_str(),
-                at(x + 34, y),
-                text.clone(),
-            ))?;
+            let size = TICK_SIZE * PARTS;
+            write(&legend, at(x + 34, y), HPos::Left, size, &series.label)?;
         }
         Ok(Some(frame))
     }
 }
 
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(crate) type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// Writes `text` that begins, ends or has its middle at `place`, as `side` says.
+pub(crate) fn write<'a>(
+    area: &Area<'a>,
+    place: (i32, i32),
+    side: HPos,
+    size: u32,
+    text: &str,
+) -> Result<(), DrawError<'a>> {
+    let style = (FONT, size).into_text_style(area);
+    let style = style.pos(Pos::new(side, VPos::Center));
+    area.draw(&Text::new(text, place, style))
+}
 
 /// What `draw` draws on an area of this size in pixels, in so many `parts` of them, as the text of an SVG file with a view box, so that a
 /// page can scale it.
 pub(crate) fn svg(
     size: (u32, u32),
     parts: u32,
-    draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>>,
+    draw: impl for<'a> FnOnce(&Area<'a>) -> Result<(), DrawError<'a>>,
 ) -> Result<String, Failure> {
     let mut text = String::new();
     {
@@ -337,14 +329,9 @@ pub(crate) fn svg(
 fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
     chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
     series: &Series,
-    scale: Scale,
 ) -> Result<(), DrawError<'a>> {
     let style = series.colour.stroke_width(series.width * PARTS);
-    let place = |&(x, y): &(f64, f64)| match scale {
-        Scale::Linear => (x, y),
-        Scale::Decades => (x.log10(), y.log10()),
-    };
-    let points = series.points.iter().map(place);
+    let points = series.points.iter().copied();
     let annotation = if series.dashed {
         chart.draw_series(DashedLineSeries::new(points, 6 * PARTS, 4 * PARTS, style))?
     } else {
@@ -369,10 +356,10 @@ fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
                 .points
                 .iter()
                 .filter(|p| !series.rings.contains(p))
-                .map(|p| Circle::new(place(p), series.dots * PARTS, series.colour.filled())),
+                .map(|p| Circle::new(*p, series.dots * PARTS, series.colour.filled())),
         )?;
     }
-    let ring = |p| Circle::new(place(p), (series.dots.max(2) + 1) * PARTS, style);
+    let ring = |p: &(f64, f64)| Circle::new(*p, (series.dots.max(2) + 1) * PARTS, style);
     chart.draw_series(series.rings.iter().map(ring))?;
     Ok(())
 }
@@ -387,37 +374,12 @@ fn tick(value: f64) -> String {
     rounded.to_string().replace('-', "−")
 }
 
-/// The exponents of an axis with ticks at whole powers of ten.
-struct Exponents {
-    line: RangedCoordf64,
-    ticks: Vec<f64>,
-}
-
-impl Exponents {
-    fn new(range: &Range<f64>) -> Self {
-        let (low, high) = (range.start.log10(), range.end.log10());
-        Exponents {
-            line: (low..high).into(),
-            ticks: decades(low, high),
-        }
-    }
-}
-
-impl Ranged for Exponents {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        self.line.map(value, limit)
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.line.range()
-    }
+/// An axis of powers of ten, with ticks at whole ones.
+fn powers(range: &Range<f64>) -> WithKeyPoints<LogCoord<f64>> {
+    let ticks = decades(range.start.log10(), range.end.log10()).into_iter();
+    let ticks: Vec<f64> = ticks.map(|exponent| 10_f64.powf(exponent)).collect();
+    let axis = range.clone().log_scale().with_key_points(ticks.clone());
+    axis.with_light_points(ticks)
 }
 
 /// The whole powers of ten between two exponents, at most twelve of them.
@@ -427,8 +389,8 @@ fn decades(low: f64, high: f64) -> Vec<f64> {
     (first..=last).step_by(stride).map(f64::from).collect()
 }
 
-/// 10 to the power of a tick.
-fn power(exponent: f64) -> String {
+/// A whole power of ten.
+fn power(value: f64) -> String {
     let digit = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',
@@ -437,18 +399,14 @@ fn power(exponent: f64) -> String {
         // The others follow each other from U+2070 on.
         c => char::from_u32(0x2070 + c.to_digit(10).unwrap_or(0)).unwrap_or(c),
     };
-    let exponent = format!("{:.0}", exponent.round());
+    let exponent = format!("{:.0}", value.log10().round());
     format!("10{}", exponent.chars().map(digit).collect::<String>())
 }
 
 /// The smallest range of whole decades that holds all of `values` that are positive.
 pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| *v > 0.0 && v.is_finite())
-        .map(f64::log10)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
+    let values = values.filter(|v| *v > 0.0 && v.is_finite());
+    let (low, high) = extremes(values.map(f64::log10));
     if low > high {
         return (0.1, 1.0);
     }
@@ -459,11 +417,7 @@ pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.
 pub fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| v.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
+    let (low, high) = extremes(values.filter(|v| v.is_finite()));
     if low > high {
         return (0.0, 1.0);
     }
@@ -509,9 +463,9 @@ mod tests {
 
     #[test]
     fn decades_are_whole() {
-        assert_eq!(power(-13.0), "10⁻¹³");
-        assert_eq!(power(0.0), "10⁰");
-        assert_eq!(power(4.0), "10⁴");
+        assert_eq!(power(1e-13), "10⁻¹³");
+        assert_eq!(power(1.0), "10⁰");
+        assert_eq!(power(1e4), "10⁴");
         assert_eq!(decades(-3.2, 1.0), [-3.0, -2.0, -1.0, 0.0, 1.0]);
         assert!(decades(-300.0, 300.0).len() <= 13);
         let (low, high) = decade_range([3e-7, 0.0, 2.0, f64::NAN].into_iter());
@@ -531,7 +485,7 @@ mod tests {
                 Series::reference("free fall", vec![(0.0, 0.0), (2.0, 5.0)]),
             ],
             scale: Scale::Linear,
-            legend: Legend::LowerRight,
+            legend: Legend::Within(Place::LowerRight),
             size: (480, 300),
         };
         let svg = chart.svg().expect("figure");

@@ -1,5 +1,6 @@
 //! The command `run`: integrate a model, write samples and a summary.
 
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -7,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::{CsvWriter, Drift, Ending, Sample};
-use ukcore::{Error, State, Trajectory};
+use ukcore::{Prepared, State};
 
 use crate::animate::{self, Film};
 use crate::command;
@@ -60,37 +61,25 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
                 .to_owned(),
         ));
     }
-    let path = args.csv.as_deref().filter(|_| !to_stdout);
     let plot = args.plot.as_ref().and_then(|asked| asked.first());
     output::apart(&[
-        ("--csv", path),
+        ("--csv", args.csv.as_deref()),
         ("--plot", plot.map(Path::new)),
         ("--animate", args.animate.as_deref()),
     ])?;
     let ready = args.scene.ready(models)?;
-    let file = match args.csv.as_deref() {
-        None => None,
-        Some(_) if to_stdout => Some(WholeFile::stdout()),
-        Some(path) => Some(WholeFile::create(path)?),
-    };
-    let begin = |file| CsvWriter::new(&ready.mechanism, file);
-    let rows = file.map(begin).transpose();
-    let curves = args.plot.as_ref();
-    let curves = curves.map(|asked| Curves::new(&ready.mechanism, asked));
-    let film = match args.animate.as_deref() {
-        Some(path) => Some((Film::new(&ready, String::new())?, WholeFile::create(path)?)),
-        None => None,
-    };
-    let samples = Samples {
-        rows: rows.map_err(|e| output::failure(path, &e))?,
-        curves: curves.transpose()?,
-        film,
-        drift: Drift::new(&ready.mechanism),
-        broken: None,
+    let mut samples = Samples::new(&ready, args)?;
+    let every = match args.every.is_some() || args.plot.is_some() || args.animate.is_some() {
+        true => args.motion.interval(&ready, args.every, INTERVALS)?,
+        false => None,
     };
     let started = Instant::now();
-    let (trajectory, error, mut samples) = integrate(&ready, args, samples)?;
+    let each = |sample: Sample<'_>| samples.add(&ready.mechanism, sample);
+    let (trajectory, error) = args.motion.follow(&ready, every, each)?;
     let seconds = started.elapsed().as_secs_f64();
+    if let (Some(error), Some(path)) = (&samples.failed, &args.csv) {
+        return Err(Failure::file(path, error));
+    }
     if let Some((film, _)) = &mut samples.film {
         film.end(error.as_ref());
     }
@@ -139,48 +128,56 @@ struct Samples {
     curves: Option<Curves>,
     film: Option<(Film, WholeFile)>,
     drift: Drift,
+    outputs: Vec<f64>,
     /// The first at which an output is not finite.
     broken: Option<State>,
+    /// Why a row could not be written.
+    failed: Option<io::Error>,
 }
 
-/// The trajectory, why it ends early if it does by an error, and what became of its samples. Where rows cannot be written it ends too.
-///
-/// # Errors
-/// What writing reports.
-fn integrate(
-    ready: &Ready<'_>,
-    args: &RunArgs,
-    mut samples: Samples,
-) -> Result<(Trajectory, Option<Error>, Samples), Failure> {
-    let every = match args.every.is_some() || args.plot.is_some() || args.animate.is_some() {
-        true => args.motion.interval(ready, args.every, INTERVALS)?,
-        false => None,
-    };
-    let mut broken = None;
-    let mut outputs = vec![0.0; ready.mechanism.spec().outputs.len()];
-    let (trajectory, error) = args.motion.follow(ready, every, |sample| {
-        samples.drift.add(sample);
+impl Samples {
+    /// Begins all files that are asked for.
+    fn new(ready: &Ready<'_>, args: &RunArgs) -> Result<Self, Failure> {
+        let mechanism = &ready.mechanism;
+        let rows = args.csv.as_ref().map(|path| {
+            let rows = CsvWriter::new(mechanism, WholeFile::create(path)?);
+            rows.map_err(|e| Failure::file(path, &e))
+        });
+        let curves = args.plot.as_ref();
+        let curves = curves.map(|asked| Curves::new(mechanism, asked));
+        let film = args.animate.as_ref().map(|path| {
+            let film = Film::new(ready, String::new())?;
+            Ok::<_, Failure>((film, WholeFile::create(path)?))
+        });
+        Ok(Samples {
+            rows: rows.transpose()?,
+            curves: curves.transpose()?,
+            film: film.transpose()?,
+            drift: Drift::new(mechanism),
+            outputs: vec![0.0; mechanism.spec().outputs.len()],
+            broken: None,
+            failed: None,
+        })
+    }
+
+    /// Takes a sample of `mechanism`, unless its row cannot be written.
+    fn add(&mut self, mechanism: &Prepared, sample: Sample<'_>) -> ControlFlow<()> {
+        self.drift.add(sample);
         let Sample { t, q, v, .. } = sample;
-        ready.mechanism.outputs(t, q, v, &mut outputs);
-        if samples.broken.is_none() && outputs.iter().any(|x| !x.is_finite()) {
-            samples.broken = Some(sample.to_state());
+        mechanism.outputs(t, q, v, &mut self.outputs);
+        if self.broken.is_none() && self.outputs.iter().any(|x| !x.is_finite()) {
+            self.broken = Some(sample.to_state());
         }
-        if let Some(curves) = &mut samples.curves {
+        if let Some(curves) = &mut self.curves {
             curves.add(sample);
         }
-        if let Some((film, _)) = &mut samples.film {
+        if let Some((film, _)) = &mut self.film {
             film.add(sample);
         }
-        let row = samples.rows.as_mut().map(|rows| rows.write(sample));
-        if let Some(Err(error)) = row {
-            broken = Some(error);
-            return ControlFlow::Break(());
+        self.failed = self.rows.as_mut().and_then(|rows| rows.write(sample).err());
+        match self.failed {
+            None => ControlFlow::Continue(()),
+            Some(_) => ControlFlow::Break(()),
         }
-        ControlFlow::Continue(())
-    })?;
-    if let Some(error) = broken {
-        let path = args.csv.as_deref().filter(|path| !output::is_stdout(path));
-        return Err(output::failure(path, &error));
     }
-    Ok((trajectory, error, samples))
 }

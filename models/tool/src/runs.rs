@@ -1,10 +1,8 @@
 //! Several runs at once: lists of values, each combination of which is a run.
 
-use std::str::FromStr;
-
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::{Method, Stabilisation};
+use ukcore::{Error, Method, Stabilisation};
 
 use crate::failure::Failure;
 use crate::motion::{self, Motion};
@@ -26,28 +24,25 @@ pub struct Runs {
     #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Relative and absolute tolerance of the integration, or several: `1e-4,1e-10`
-    #[arg(long, value_name = "TOLS", default_value = "1e-10", value_parser = List::<f64>::read, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TOLS", default_value = "1e-10", value_parser = tolerances, allow_hyphen_values = true)]
     pub tol: List<f64>,
     /// Integration method, or several, as for `run`: `dop853`, `dopri5`, `radau5`, `rattle=STEP`
-    #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = List::<Method>::read)]
+    #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = methods)]
     pub method: List<Method>,
     /// Steps to give up after, such as 1e9
     #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps, allow_hyphen_values = true)]
     pub max_steps: usize,
     /// How the constraints are kept from drifting, or several ways: `projection,none`
-    #[arg(long, visible_alias = "stabilize", value_name = "WAYS", default_value = "projection", value_parser = List::<Stabilisation>::read)]
+    #[arg(long, visible_alias = "stabilize", value_name = "WAYS", default_value = "projection", value_parser = ways)]
     pub stabilise: List<Stabilisation>,
 }
 
 /// One of the runs that [`Runs`] asks for.
-#[derive(Debug, Clone)]
-pub struct Variant {
-    /// With which parameters, and from where.
-    pub start: Start,
-    /// How it is computed.
-    pub motion: Motion,
+pub(crate) struct Variant {
+    pub(crate) start: Start,
+    pub(crate) motion: Motion,
     /// What distinguishes it from the others: names and values.
-    pub differs: Vec<(String, String)>,
+    pub(crate) differs: Vec<(String, String)>,
 }
 
 impl Runs {
@@ -55,7 +50,7 @@ impl Runs {
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
-    pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
+    pub(crate) fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
         let plain = Start {
             place: self.place.clone(),
             ..Start::default()
@@ -68,7 +63,7 @@ impl Runs {
                 return Err(Failure::Usage(message));
             }
             let values = values.si(plain.unit(entry, name)?);
-            let values = values.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            let values = values.map_err(Failure::value(name))?;
             axes.push((name, values));
         }
         let lengths = axes.iter().map(|(_, values)| values.len());
@@ -78,9 +73,8 @@ impl Runs {
             self.stabilise.0.len(),
         ];
         let lengths: Vec<usize> = lengths.chain(others).filter(|n| *n > 1).collect();
-        let count = lengths
-            .iter()
-            .try_fold(1_usize, |all, n| all.checked_mul(*n));
+        let mut factors = lengths.iter();
+        let count = factors.try_fold(1_usize, |all, n| all.checked_mul(*n));
         let count = count.filter(|count| *count <= most).ok_or_else(|| {
             let each: Vec<String> = lengths.iter().map(ToString::to_string).collect();
             let product = each.join(" × ");
@@ -202,47 +196,30 @@ fn assignment(text: &str) -> Result<(String, Values), String> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(pub Vec<T>);
 
-/// What `parts` are read as.
-fn listed<'a, T>(
-    parts: impl IntoIterator<Item = &'a str>,
-    read: impl Fn(&str) -> Result<T, String>,
-) -> Result<List<T>, String> {
-    let values: Result<_, _> = parts.into_iter().map(read).collect();
+fn tolerances(text: &str) -> Result<List<f64>, String> {
+    let values: Result<_, _> = text.split(',').map(motion::tolerance).collect();
     values.map(List)
 }
 
-impl List<f64> {
-    fn read(text: &str) -> Result<Self, String> {
-        listed(text.split(','), motion::tolerance)
-    }
+fn methods(text: &str) -> Result<List<Method>, String> {
+    let values: Result<_, _> = text.split(',').map(motion::method).collect();
+    values.map(List)
 }
 
-impl List<Method> {
-    fn read(text: &str) -> Result<Self, String> {
-        listed(text.split(','), motion::method)
-    }
-}
-
-impl List<Stabilisation> {
-    fn read(text: &str) -> Result<Self, String> {
-        let mut parts: Vec<String> = Vec::new();
-        for part in text.split(',') {
-            match parts.last_mut() {
-                // The second rate of `baumgarte=20,20`.
-                Some(before)
-                    if part
-                        .trim()
-                        .starts_with(|c: char| c.is_ascii_digit() || c == '.') =>
-                {
-                    *before += ",";
-                    *before += part;
-                }
-                _ => parts.push(part.to_owned()),
-            }
+fn ways(text: &str) -> Result<List<Stabilisation>, String> {
+    let mut parts: Vec<String> = Vec::new();
+    for part in text.split(',') {
+        let first = part.trim_start().chars().next();
+        let number = first.is_some_and(|c| c.is_ascii_digit() || c == '.');
+        match parts.last_mut() {
+            // The second rate of `baumgarte=20,20`.
+            Some(before) if number => *before += &format!(",{part}"),
+            _ => parts.push(part.to_owned()),
         }
-        let way = |part: &str| Stabilisation::from_str(part.trim()).map_err(|e| e.to_string());
-        listed(parts.iter().map(String::as_str), way)
     }
+    let way = |part: String| part.trim().parse().map_err(|e: Error| e.to_string());
+    let values: Result<_, _> = parts.into_iter().map(way).collect();
+    values.map(List)
 }
 
 #[cfg(test)]
@@ -286,8 +263,7 @@ mod tests {
 
     #[test]
     fn ways_with_rates_are_one() {
-        let List(ways) =
-            List::<Stabilisation>::read("none,baumgarte=5,6,projection").expect("ways");
+        let List(ways) = ways("none,baumgarte=5,6,projection").expect("ways");
         let written: Vec<String> = ways.iter().map(Stabilisation::to_string).collect();
         assert_eq!(written, ["none", "baumgarte=5,6", "projection"]);
     }

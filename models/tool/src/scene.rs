@@ -2,7 +2,6 @@
 
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
-use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
 use crate::command::find;
@@ -55,18 +54,16 @@ impl Place {
 }
 
 /// A mechanism with the parameters asked for, at the start asked for.
-#[derive(Debug, Clone)]
-pub struct Ready<'a> {
-    /// The model.
-    pub entry: &'a Entry,
-    /// The mechanism with its parameters.
-    pub mechanism: Prepared,
+pub(crate) struct Ready<'a> {
+    pub(crate) entry: &'a Entry,
+    /// With its parameters.
+    pub(crate) mechanism: Prepared,
     /// Name of the start; `"assembled"` where it was found from a guess.
-    pub start: &'static str,
+    pub(crate) start: &'static str,
     /// The state there.
-    pub state: State,
+    pub(crate) state: State,
     /// How long a typical run from it lasts, s.
-    pub duration: f64,
+    pub(crate) duration: f64,
 }
 
 impl Scene {
@@ -76,15 +73,14 @@ impl Scene {
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
     /// nothing near the guess satisfies the constraints.
-    pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
+    pub(crate) fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
         self.start.noted(find(models, &self.model)?)
     }
 }
 
 impl Start {
     /// Whether nothing is asked for, so that the model is taken as it is.
-    #[must_use]
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
     }
 
@@ -98,10 +94,7 @@ impl Start {
     }
 
     /// Sets the parameters of `entry` and puts it together at its start.
-    ///
-    /// # Errors
-    /// What [`Scene::ready`] reports.
-    pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
+    pub(crate) fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let (mechanism, start, options) = self.settings(entry)?;
         let (name, state) = match start.filter(|_| !self.guesses()) {
             Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),
@@ -132,7 +125,8 @@ impl Start {
     /// What to say of an angle called `name` for which a bare number is given, if `list` has it in degrees.
     pub(crate) fn angle(&self, entry: &Entry, name: &str, given: &Quantity) -> Option<String> {
         let value = given.bare()?;
-        let (default, unit) = self.preset(entry, name)?;
+        let start = self.spec(entry).ok()?;
+        let Setting { default, unit, .. } = setting(entry, name, start).ok()?;
         in_degrees(default, unit)?;
         let number = short(value, 8);
         in_degrees(value, unit).is_none().then(|| {
@@ -140,22 +134,8 @@ impl Start {
         })
     }
 
-    /// The default of the parameter or option called `name`, and its unit.
-    fn preset(&self, entry: &Entry, name: &str) -> Option<(f64, &'static str)> {
-        let mut options = self.spec(entry).ok().flatten()?.options.iter();
-        if let Some(option) = options.find(|option| option.name == name) {
-            return Some((option.default, option.unit));
-        }
-        let spec = entry.mechanism.spec();
-        let place = *spec.parameter_indices(name).ok()?.first()?;
-        Some((spec.params[place].default, spec.params[place].unit))
-    }
-
     /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] for unknown names and values in the wrong unit.
-    pub fn settings(
+    pub(crate) fn settings(
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
@@ -164,9 +144,8 @@ impl Start {
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
-            let (option, unit) = setting(entry, name, start)?;
-            let value = quantity.si(unit);
-            let value = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            let Setting { option, unit, .. } = setting(entry, name, start)?;
+            let value = quantity.si(unit).map_err(Failure::value(name))?;
             match option {
                 true => options.set(name, value),
                 false => mechanism.set(name, value)?,
@@ -176,11 +155,8 @@ impl Start {
     }
 
     /// The unit of the parameter or option called `name`.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] for unknown names.
     pub(crate) fn unit(&self, entry: &Entry, name: &str) -> Result<&'static str, Failure> {
-        Ok(setting(entry, name, self.spec(entry)?)?.1)
+        Ok(setting(entry, name, self.spec(entry)?)?.unit)
     }
 
     fn spec(&self, entry: &Entry) -> Result<Option<&'static StartSpec>, Failure> {
@@ -219,7 +195,7 @@ impl Start {
                     Some(_) => quantity.si_rate(unit),
                     None => quantity.si(unit),
                 };
-                values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+                values[index] = value.map_err(Failure::value(name))?;
             }
         }
         Ok(state)
@@ -239,41 +215,38 @@ impl Start {
 
 /// Refuses a name that is given twice, of which one value would count and nobody know which.
 fn once(option: &str, given: &[(String, Quantity)]) -> Result<(), Failure> {
-    let twice = |(k, (name, _)): &(usize, &(String, Quantity))| {
-        given[..*k].iter().any(|(other, _)| other == name)
-    };
-    match given.iter().enumerate().find(twice) {
-        None => Ok(()),
-        Some((_, (name, _))) => Err(Failure::Usage(format!(
-            "`{name}` is given twice by `{option}`; leave one out"
-        ))),
+    for (k, (name, _)) in given.iter().enumerate() {
+        if given[..k].iter().any(|(other, _)| other == name) {
+            return Err(Failure::Usage(format!(
+                "`{name}` is given twice by `{option}`; leave one out"
+            )));
+        }
     }
+    Ok(())
 }
 
-/// Whether `name` is an option of the start, not a parameter, and its unit.
-fn setting(
-    entry: &Entry,
-    name: &str,
-    start: Option<&StartSpec>,
-) -> Result<(bool, &'static str), Failure> {
+/// What `--set` can name.
+struct Setting {
+    /// An option of the start, not a parameter.
+    option: bool,
+    default: f64,
+    unit: &'static str,
+}
+
+/// The option or parameter called `name`; of a family or row named without index its first member.
+fn setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Result<Setting, Failure> {
     let mut offered = start.map_or(&[][..], |s| s.options).iter();
-    if let Some(option) = offered.find(|o| o.name == name) {
-        return Ok((true, option.unit));
-    }
-    match unit_of(entry.mechanism.spec(), name) {
-        Some(unit) => Ok((false, unit)),
-        None => Err(unknown_setting(entry, name, start)),
-    }
-}
-
-/// The unit of a parameter, or of a family or row named without index.
-fn unit_of(spec: &Spec, name: &str) -> Option<&'static str> {
-    let indices = spec.parameter_indices(name).ok()?;
-    indices.first().map(|p| spec.params[*p].unit)
-}
-
-fn family(name: &str) -> &str {
-    name.split_once('[').map_or(name, |(family, _)| family)
+    let spec = entry.mechanism.spec();
+    let first = || Some(&spec.params[*spec.parameter_indices(name).ok()?.first()?]);
+    let option = offered.find(|o| o.name == name);
+    let option = option.map(|o| (true, o.default, o.unit));
+    let found = option.or_else(|| first().map(|p| (false, p.default, p.unit)));
+    let (option, default, unit) = found.ok_or_else(|| unknown_setting(entry, name, start))?;
+    Ok(Setting {
+        option,
+        default,
+        unit,
+    })
 }
 
 fn unknown_setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Failure {
@@ -286,7 +259,8 @@ fn unknown_setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Fail
     }
     let params = || entry.mechanism.spec().params.iter().map(|p| p.name);
     let options = start.map_or(&[][..], |s| s.options).iter().map(|o| o.name);
-    let families = params().filter(|p| p.ends_with("[0]")).map(family);
+    let families = params().filter(|p| p.ends_with("[0]"));
+    let families = families.filter_map(|p| Some(p.split_once('[')?.0));
     let mut known = options.chain(params()).chain(families);
     Error::unknown_name("parameter or start option", name, &mut known).into()
 }

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
+use ukcore::spec::Spec;
 use ukcore::{Solver, SolverOptions, State, Trajectory, lost_reactions};
 
 use crate::drift::Drift;
@@ -119,9 +120,6 @@ impl Summary<'_> {
     }
 
     /// Writes the summary for reading.
-    ///
-    /// # Errors
-    /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let tolerance = self.motion.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
@@ -140,16 +138,14 @@ impl Summary<'_> {
             )?;
         }
         match drift.energy_drift {
-            Some(drift) => writeln!(
-                out,
-                "  energy drift: {drift:.1e} of the energy exchanged, {}{}",
-                significant(self.measured.exchanged(), 4),
-                if self.trajectory.spec().coordinate_units.is_empty() {
-                    ""
-                } else {
-                    " J"
-                },
-            )?,
+            Some(drift) => {
+                let exchanged = significant(self.measured.exchanged(), 4);
+                let unit = joule(self.trajectory.spec());
+                writeln!(
+                    out,
+                    "  energy drift: {drift:.1e} of the energy exchanged, {exchanged}{unit}"
+                )?
+            }
             None => writeln!(
                 out,
                 "  energy drift: not told, as energy is not conserved in this model"
@@ -206,17 +202,12 @@ impl Summary<'_> {
     /// Constraints that the others imply at the last state.
     fn implied(&self) -> Vec<String> {
         let mechanism = self.trajectory.mechanism();
-        let solution = self.trajectory.last().and_then(|last| {
-            Solver::new(mechanism.clone(), SolverOptions::default())
-                .solve(last.t, last.q, last.v)
-                .ok()
-        });
-        let constraints = self.trajectory.spec().constraints;
+        let mut solver = Solver::new(mechanism.clone(), SolverOptions::default());
+        let last = self.trajectory.last();
+        let solution = last.and_then(|last| solver.solve(last.t, last.q, last.v).ok());
         let redundant = solution.map_or(Vec::new(), |s| s.redundant);
-        let names = redundant.iter();
-        names
-            .map(|i| format!("`{}`", constraints[*i].name))
-            .collect()
+        let name = |i: &usize| format!("`{}`", self.trajectory.spec().constraints[*i].name);
+        redundant.iter().map(name).collect()
     }
 
     /// Why the straight line was left, as far as the last state tells.
@@ -260,23 +251,29 @@ impl Summary<'_> {
             let unit = behind(spec.coordinate_unit(i));
             writeln!(out, "  {name:<wide$} {q:>18}{unit:<most$}   dot {v:>18}")?;
         }
-        if !spec.outputs.is_empty() {
-            writeln!(out, "\nOutputs")?;
-        }
         let mut outputs = vec![0.0; spec.outputs.len()];
         mechanism.outputs(last.t, last.q, last.v, &mut outputs);
-        for (output, value) in spec.outputs.iter().zip(outputs) {
-            let (name, unit) = (output.name, behind(output.unit));
-            writeln!(out, "  {name:<wide$} {:>18}{unit}", number(value))?;
-        }
-        if !last.integrals.is_empty() {
-            writeln!(out, "\nIntegrals")?;
-        }
-        for (integral, value) in mechanism.integrals().iter().zip(last.integrals) {
-            let (name, unit) = (integral.name, behind(integral.unit));
-            writeln!(out, "  {name:<wide$} {:>18}{unit}", number(*value))?;
+        for (head, reported, values) in [
+            ("Outputs", spec.outputs, &outputs[..]),
+            ("Integrals", mechanism.integrals(), last.integrals),
+        ] {
+            if !values.is_empty() {
+                writeln!(out, "\n{head}")?;
+            }
+            for (told, value) in reported.iter().zip(values) {
+                let (name, unit) = (told.name, behind(told.unit));
+                writeln!(out, "  {name:<wide$} {:>18}{unit}", number(*value))?;
+            }
         }
         Ok(())
+    }
+}
+
+/// The unit of energy behind a number, where the declaration has units.
+pub(crate) fn joule(spec: &Spec) -> &'static str {
+    match spec.coordinate_units {
+        [] => "",
+        _ => " J",
     }
 }
 

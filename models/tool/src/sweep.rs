@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use ukcore::model::{Entry, StartSpec};
-use ukcore::simulate::{Drift, Ending, Record, Sample};
+use ukcore::simulate::{Drift, Ending};
 
 use crate::columns::Columns;
 use crate::command::{self, find};
@@ -45,32 +45,19 @@ pub struct SweepArgs {
     /// Only a share of the runs, such as `3/10`: every tenth, from the third on. Tables of all shares, one behind the other in one file,
     /// are a table of the sweep, which the same command without a share puts in order and completes
     #[arg(long, value_name = "K/N", value_parser = shard)]
-    pub shard: Option<Shard>,
+    pub shard: Option<(usize, usize)>,
     /// The table, as CSV, or as Parquet where its name ends in `.parquet` and this program is built with that feature: from rows that are
     /// collected in FILE.csv. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub out: PathBuf,
 }
 
-/// A share of the runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    number: usize,
-    of: usize,
-}
-
-impl Shard {
-    fn has(self, member: usize) -> bool {
-        member % self.of == self.number - 1
-    }
-}
-
 /// Reads `K/N`.
-fn shard(text: &str) -> Result<Shard, String> {
+fn shard(text: &str) -> Result<(usize, usize), String> {
     let (number, of) = text.split_once('/').unwrap_or((text, ""));
     let read = |text: &str| text.trim().parse::<usize>().ok();
     match (read(number), read(of)) {
-        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok(Shard { number, of }),
+        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok((number, of)),
         _ => Err("a share is needed as K/N, with K from 1 to N: `1/10` to `10/10`".to_owned()),
     }
 }
@@ -104,7 +91,8 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let head = plan.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;
-    let own = |member: &usize| args.shard.is_none_or(|shard| shard.has(*member));
+    let (number, of) = args.shard.unwrap_or((1, 1));
+    let own = |member: &usize| member % of == number - 1;
     let mut todo = table.missing(&plan)?;
     todo.retain(own);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));
@@ -272,32 +260,17 @@ impl Plan<'_> {
         let mut extremes = vec![Extremes::default(); columns.names().count()];
         let mut drift = Drift::new(&ready.mechanism);
         let mut last = Vec::new();
-        let length = chosen.motion.length(&ready);
-        let mut simulation = chosen.motion.simulation(&ready);
-        if let Some(interval) = chosen.motion.interval(&ready, self.every, INTERVALS)? {
-            simulation = simulation.every(interval);
-        }
-        let simulation = simulation.progress(move |_| match interrupt.is_set() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
-        let mut add = |sample: Sample<'_>| {
+        let (motion, ignore) = (&chosen.motion, |_| {});
+        let every = motion.interval(&ready, self.every, INTERVALS)?;
+        let (trajectory, error) = motion.stream(&ready, every, interrupt, ignore, |sample| {
             last = columns.values(sample);
             for (extremes, value) in extremes.iter_mut().zip(&last) {
                 extremes.add(sample.t, *value);
             }
             drift.add(sample);
-        };
-        let result = simulation.stream(ready.state.t + length, |record| {
-            if let Record::Sample(sample) = record {
-                add(sample);
-            }
             ControlFlow::Continue(())
         });
-        let (trajectory, error) = match result {
-            Ok(trajectory) => (trajectory, String::new()),
-            Err(failure) => (*failure.trajectory, Failure::from(failure.error).message()),
-        };
+        let error = error.map_or(String::new(), |error| Failure::from(error).message());
         if trajectory.ending() == Ending::Interrupted {
             return Ok(None);
         }
@@ -432,41 +405,31 @@ impl Table {
         }
         let text = fs::read(path).map_err(|e| broken(&e))?;
         // A line that was being written when the program ended is none.
-        let whole = text
-            .iter()
-            .rposition(|byte| *byte == b'\n')
-            .map_or(0, |end| end + 1);
-        if whole == 0 && (text.is_empty() || head.starts_with(&text)) {
-            file.set_len(0).map_err(|e| broken(&e))?;
-            file.write_all(head).map_err(|e| broken(&e))?;
-            return Ok(Table {
-                path: path.to_owned(),
-                file,
-                rows: HashMap::new(),
-            });
-        }
-        if !text.starts_with(head) {
-            return Err(other(path));
+        let end = text.iter().rposition(|byte| *byte == b'\n');
+        let whole = end.map_or(0, |end| end + 1);
+        let (path, mut rows) = (path.to_owned(), HashMap::new());
+        let new = whole == 0 && head.starts_with(&text);
+        if !new && !text.starts_with(head) {
+            return Err(other(&path));
         }
         file.set_len(whole as u64).map_err(|e| broken(&e))?;
+        if new {
+            file.write_all(head).map_err(|e| broken(&e))?;
+            return Ok(Table { path, file, rows });
+        }
         let mut reader = csv::Reader::from_reader(&text[..whole]);
-        let names = reader.headers().cloned().map_err(|_| other(path))?;
-        let mut rows = HashMap::new();
+        let names = reader.headers().cloned().map_err(|_| other(&path))?;
         for record in reader.records() {
-            let record = record.map_err(|_| other(path))?;
+            let record = record.map_err(|_| other(&path))?;
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
             // Tables of shares come one behind the other, each with its head.
             if names.iter().eq(&fields) {
                 continue;
             }
-            let member = fields[0].parse().map_err(|_| other(path))?;
+            let member = fields[0].parse().map_err(|_| other(&path))?;
             rows.insert(member, fields);
         }
-        Ok(Table {
-            path: path.to_owned(),
-            file,
-            rows,
-        })
+        Ok(Table { path, file, rows })
     }
 
     /// The members that have no row.
@@ -501,10 +464,8 @@ fn in_order(path: &Path) -> Result<Vec<(String, String)>, Failure> {
     let text = fs::read_to_string(path).map_err(|e| Failure::file(path, &e))?;
     let (head, rows) = text.split_once('\n').unwrap_or((&text, ""));
     let member = |row: &&str| {
-        row.split(',')
-            .next()
-            .and_then(|k| k.parse().ok())
-            .unwrap_or(usize::MAX)
+        let number = row.split(',').next().and_then(|k| k.parse().ok());
+        number.unwrap_or(usize::MAX)
     };
     let mut rows: Vec<&str> = rows.lines().filter(|row| *row != head).collect();
     rows.sort_by_key(member);
@@ -516,10 +477,8 @@ fn in_order(path: &Path) -> Result<Vec<(String, String)>, Failure> {
         let (member, error) = (record.get(0)?, record.get(record.len() - 1)?);
         (!error.is_empty()).then(|| (member.to_owned(), error.to_owned()))
     };
-    Ok(reader
-        .records()
-        .filter_map(|record| ends(record.ok()?))
-        .collect())
+    let records = reader.records();
+    Ok(records.filter_map(|record| ends(record.ok()?)).collect())
 }
 
 #[cfg(test)]

@@ -19,10 +19,7 @@ pub struct Quantity {
 
 impl Quantity {
     /// Reads a value: a number, or a product, with a unit behind or without.
-    ///
-    /// # Errors
-    /// What is wrong with `text`, with the nearest unit if one is unknown.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let body = text.trim();
         let unsigned = body.strip_prefix(['+', '-', '−']).unwrap_or(body);
         let word = unsigned.to_lowercase();
@@ -41,7 +38,6 @@ impl Quantity {
     }
 
     /// This one, a bare number, in the unit of `others` if they have one and the same; 0 has any.
-    #[must_use]
     pub(crate) fn in_unit_of(self, others: &[Quantity]) -> Self {
         let mut units = others.iter().filter(|q| !q.is_zero()).map(|q| &q.unit);
         let unit = units.next().filter(|unit| units.all(|u| u == *unit));
@@ -55,9 +51,6 @@ impl Quantity {
     }
 
     /// Refuses numbers of which some have a unit and some have none: those would be in SI, which nobody means. 0 is 0 in any unit.
-    ///
-    /// # Errors
-    /// What to do.
     pub(crate) fn alike(values: &[Quantity], text: &str) -> Result<(), String> {
         let told: Vec<_> = values.iter().filter(|q| !q.is_zero()).collect();
         let bare = told.iter().filter(|q| q.unit.is_none()).count();
@@ -84,19 +77,13 @@ impl Quantity {
         unit.map_or(self.value, |unit| unit.to_si(self.value))
     }
 
-    /// The number in the SI unit `declared`; where that is empty, in whatever SI unit it has.
-    ///
-    /// # Errors
-    /// If it is of another dimension.
-    pub fn si(&self, declared: &str) -> Result<f64, String> {
+    /// The number in the SI unit `declared`; where that is empty, in whatever SI unit it has. It is refused if it is of another dimension.
+    pub(crate) fn si(&self, declared: &str) -> Result<f64, String> {
         self.of(declared, Dimension::NUMBER)
     }
 
     /// The number in the SI unit of a velocity: `declared` per second.
-    ///
-    /// # Errors
-    /// If it is of another dimension.
-    pub fn si_rate(&self, declared: &str) -> Result<f64, String> {
+    pub(crate) fn si_rate(&self, declared: &str) -> Result<f64, String> {
         self.of(declared, Dimension::TIME)
     }
 
@@ -127,10 +114,7 @@ impl From<f64> for Quantity {
 }
 
 /// Reads `NAME=VALUE` as a name and a quantity.
-///
-/// # Errors
-/// If there is no `=`, no name, or the value is not understood.
-pub fn assignment(text: &str) -> Result<(String, Quantity), String> {
+pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
     let (name, value) = split(text, "VALUE")?;
     Ok((name.to_owned(), Quantity::parse(value)?))
 }
@@ -170,10 +154,7 @@ pub(crate) fn range(name: &str, values: &str) -> Result<Range, String> {
 }
 
 /// Reads a time, such as `1.5`, `20ms` or `2min`, as seconds.
-///
-/// # Errors
-/// If the value is not understood or not a time.
-pub fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     Quantity::parse(text)?.si("s")
 }
 

@@ -9,13 +9,9 @@ use crate::html::{fixed, power_of_ten};
 use crate::numbers::median;
 
 /// A default and what the figures say of it.
-#[derive(Debug, Clone)]
 pub(super) struct Argument {
-    /// The default.
     pub(super) default: &'static str,
-    /// The figures.
     pub(super) figures: Markup,
-    /// They speak for it.
     pub(super) supported: bool,
 }
 

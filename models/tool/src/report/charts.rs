@@ -26,14 +26,8 @@ const BY_EVALUATIONS: [&str; 6] = [
     "dop853-baumgarte20",
 ];
 
-/// A picture's file name without ending, and its SVG.
-pub(super) type Picture = (String, String);
-
-/// Both pictures of a motion.
-///
-/// # Errors
-/// [`Failure::Failed`] if one cannot be drawn.
-pub(super) fn of(study: &Study) -> Result<[Picture; 2], Failure> {
+/// Both pictures of a motion: file names without ending, and SVG.
+pub(super) fn of(study: &Study) -> Result<[(String, String); 2], Failure> {
     let time = chart(study, &BY_TIME, TIME, |f| f.seconds);
     let evaluations = chart(study, &BY_EVALUATIONS, EVALUATIONS, |f| {
         f.evaluations as f64

@@ -14,8 +14,7 @@ pub(super) const KIND: &str = "wall time";
 pub(super) fn now() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
     let time = clock_gettime(ClockId::ThreadCPUTime);
-    let seconds = u64::try_from(time.tv_sec).unwrap_or(0);
-    Duration::from_secs(seconds) + Duration::from_nanos(u64::try_from(time.tv_nsec).unwrap_or(0))
+    Duration::try_from(time).unwrap_or_default()
 }
 
 /// Wall time since the first call.

@@ -7,7 +7,6 @@ use super::study::Study;
 /// All that is measured.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Report {
-    /// What the numbers are.
     pub(super) about: String,
     /// The program that measured, and what it was asked for: only its own numbers are taken over into a later report.
     pub(super) program: String,
@@ -21,7 +20,6 @@ pub(super) struct Report {
     pub(super) seconds: f64,
     /// What could not be measured, and why.
     pub(super) failures: Vec<(String, String)>,
-    /// One for each motion.
     pub(super) studies: Vec<Study>,
 }
 
@@ -33,7 +31,7 @@ pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest
      of the repeats, quartiles beside it.";
 
 /// A row of report.csv.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Line<'a> {
     motion: &'a str,
     model: &'a str,
@@ -70,40 +68,34 @@ pub(super) fn lines(study: &Study) -> impl Iterator<Item = Line<'_>> {
         .iter()
         .flat_map(|c| c.points.iter().map(move |p| (c, p)));
     points.map(|(curve, point)| {
-        let line = Line {
+        let f = point.figures.as_ref();
+        Line {
             motion: &study.name,
             model: &study.model,
             end: study.end,
             combination: &curve.variant,
             knob: point.knob,
+            seconds: f.map(|f| f.seconds),
+            lower_quartile: f.map(|f| f.quartiles.0),
+            upper_quartile: f.map(|f| f.quartiles.1),
+            repeats: f.map(|f| f.repeats),
+            evaluations: f.map(|f| f.evaluations),
+            jacobians: f.map(|f| f.jacobians),
+            factorisations: f.map(|f| f.factorisations),
+            steps: f.map(|f| f.steps),
+            rejected: f.map(|f| f.rejected),
+            projections: f.map(|f| f.projections),
+            fallbacks: f.map(|f| f.fallbacks),
+            error: f.map(|f| f.error),
+            error_in_units: f.map(|f| f.error_in_units),
+            error_along: f.map(|f| f.error_along),
+            reference_error: f.map(|_| study.reference.floor),
+            off: f.and_then(|f| f.off),
+            within: f.and_then(|f| f.within),
+            position_residual: f.map(|f| f.drift.position_residual),
+            velocity_residual: f.map(|f| f.drift.velocity_residual),
+            energy_drift: f.and_then(|f| f.drift.energy_drift),
             failure: point.failure.as_deref().unwrap_or_default(),
-            ..Line::default()
-        };
-        let Some(f) = &point.figures else {
-            return line;
-        };
-        Line {
-            seconds: Some(f.seconds),
-            lower_quartile: Some(f.quartiles.0),
-            upper_quartile: Some(f.quartiles.1),
-            repeats: Some(f.repeats),
-            evaluations: Some(f.evaluations),
-            jacobians: Some(f.jacobians),
-            factorisations: Some(f.factorisations),
-            steps: Some(f.steps),
-            rejected: Some(f.rejected),
-            projections: Some(f.projections),
-            fallbacks: Some(f.fallbacks),
-            error: Some(f.error),
-            error_in_units: Some(f.error_in_units),
-            error_along: Some(f.error_along),
-            reference_error: Some(study.reference.floor),
-            off: f.off,
-            within: f.within,
-            position_residual: Some(f.drift.position_residual),
-            velocity_residual: Some(f.drift.velocity_residual),
-            energy_drift: f.drift.energy_drift,
-            ..line
         }
     })
 }

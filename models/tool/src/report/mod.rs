@@ -12,7 +12,7 @@ mod variants;
 mod verdict;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Instant, UNIX_EPOCH};
 
 use clap::Args;
@@ -20,6 +20,7 @@ use ukcore::model::{Entry, Reference};
 
 use crate::command::{self, find};
 use crate::failure::Failure;
+use crate::html::joined;
 use crate::interrupt::Interrupt;
 use crate::motion;
 use crate::numbers;
@@ -29,9 +30,7 @@ use crate::scene::Start;
 use crate::units::Quantity;
 
 use export::Report;
-use study::Study;
-
-pub(crate) use truth::{distance, grow, scale, stacked};
+pub(crate) use truth::{distance, grow, scale, states};
 
 /// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
@@ -87,7 +86,7 @@ pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
         let done = |part: f64| {
             progress.set((k as f64 + part) / jobs.len() as f64, || job.name.clone());
         };
-        match job.study(args.quick, interrupt, &done) {
+        match measure::study(job, args.quick, interrupt, &done) {
             Ok(study) => report.studies.push(study),
             Err(failure) => report.failures.push((job.name.clone(), failure.message())),
         }
@@ -104,14 +103,13 @@ pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
             directory.file("index.html").display()
         )));
     }
-    tell(&args.out, &report)?;
+    tell(&directory, &report)?;
     match report.failures.first() {
         None => Ok(()),
         Some((name, message)) => Err(Failure::Failed(format!("`{name}`: {message}"))),
     }
 }
 
-/// A motion to measure.
 struct Job<'a> {
     name: String,
     entry: &'a Entry,
@@ -168,10 +166,9 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
     let mut jobs: Vec<Job<'_>> = Vec::new();
     for reference in references {
         let end = reference.states.last().map_or(0.0, |s| s.t);
-        let name = if several {
-            format!("{} to {end} s", entry.id)
-        } else {
-            entry.id.clone()
+        let name = match several {
+            true => format!("{} to {end} s", entry.id),
+            false => entry.id.clone(),
         };
         jobs.push(job(name, Some(reference)));
     }
@@ -179,12 +176,10 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         jobs.push(job(entry.id.clone(), None));
     }
     for variation in entry.variations {
-        let words = variation
-            .iter()
-            .map(|(name, value)| format!("{name} {value:e}"));
-        let words = words.collect::<Vec<_>>().join(", ");
-        let settings = variation.iter();
+        let varied = variation.iter();
+        let settings = varied.clone();
         let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
+        let words = joined(varied.map(|(name, value)| format!("{name} {value:e}")));
         jobs.push(Job {
             start: Start {
                 settings: settings.collect(),
@@ -194,22 +189,6 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         });
     }
     jobs
-}
-
-impl Job<'_> {
-    /// Measures it.
-    fn study(
-        &self,
-        quick: bool,
-        interrupt: Interrupt,
-        done: &dyn Fn(f64),
-    ) -> Result<Study, Failure> {
-        let ready = self.start.ready(self.entry)?;
-        let reference = self.reference.as_ref();
-        measure::study(
-            &self.name, &ready, self.end, reference, quick, interrupt, done,
-        )
-    }
 }
 
 /// What tells this program and its order from another: size and age of its file, and what was asked for.
@@ -247,7 +226,7 @@ fn write_all(directory: &Directory, report: &Report) -> Result<(), Failure> {
 }
 
 /// What a person at the terminal wants to know at once.
-fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
+fn tell(directory: &Directory, report: &Report) -> Result<(), Failure> {
     let wide = numbers::width(report.studies.iter().map(|s| s.name.as_str()));
     let goals = verdict::looked_at(report.quick, &report.studies);
     output::to_stdout(|w| {
@@ -267,12 +246,7 @@ fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
                 writeln!(w, "  {name:<wide$}  {goal:<5}  {words}")?;
             }
         }
-        writeln!(
-            w,
-            "{} in {:.1} s; the report is {}",
-            numbers::count(report.studies.len(), "motion"),
-            report.seconds,
-            out.join("index.html").display()
-        )
+        let motions = numbers::count(report.studies.len(), "motion");
+        writeln!(w, "{}", directory.told(&motions, report.seconds))
     })
 }

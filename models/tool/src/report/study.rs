@@ -9,7 +9,6 @@ use crate::drift::Drift;
 pub(super) struct Study {
     /// Its name: the model, and the end where a model has several.
     pub(super) name: String,
-    /// The model.
     pub(super) model: String,
     /// The model in one line.
     pub(super) summary: String,
@@ -19,9 +18,7 @@ pub(super) struct Study {
     pub(super) reference: Source,
     /// Causes of error that belong to the motion, not to a combination.
     pub(super) limits: Limits,
-    /// What was run.
     pub(super) curves: Vec<Curve>,
-    /// What was not.
     pub(super) left_out: Vec<LeftOut>,
     /// Longer runs of what conserves energy.
     pub(super) long: Vec<LongRun>,
@@ -31,10 +28,8 @@ pub(super) struct Study {
     pub(super) whole: bool,
 }
 
-/// A reference.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Source {
-    /// Where it comes from.
     pub(super) source: String,
     /// Its own error, scaled: none below is claimed.
     pub(super) floor: f64,
@@ -59,18 +54,15 @@ pub(super) struct Limits {
 pub(super) struct Curve {
     /// Name of the combination.
     pub(super) variant: String,
-    /// The runs.
     pub(super) points: Vec<Point>,
 }
 
-/// One run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Point {
     /// Tolerance, or step in s.
     pub(super) knob: f64,
     /// What came out, unless it failed.
     pub(super) figures: Option<Figures>,
-    /// Why it failed.
     pub(super) failure: Option<String>,
 }
 
@@ -79,21 +71,14 @@ pub(super) struct Point {
 pub(super) struct Figures {
     /// Time, s: median of the repeats.
     pub(super) seconds: f64,
-    /// Quartiles of the repeats.
     pub(super) quartiles: (f64, f64),
-    /// Repeats.
     pub(super) repeats: usize,
-    /// Evaluations of the dynamics.
     pub(super) evaluations: usize,
-    /// Jacobians of an implicit method.
     pub(super) jacobians: usize,
-    /// Its factorisations.
     pub(super) factorisations: usize,
     /// Accepted steps.
     pub(super) steps: usize,
-    /// Rejected steps.
     pub(super) rejected: usize,
-    /// Projections.
     pub(super) projections: usize,
     /// Evaluations that left the formula first tried.
     pub(super) fallbacks: usize,
@@ -127,7 +112,6 @@ pub(super) struct LongRun {
     pub(super) early: Option<f64>,
     /// Drift at the end.
     pub(super) late: Option<f64>,
-    /// Why it failed.
     pub(super) failure: Option<String>,
 }
 
@@ -136,7 +120,6 @@ pub(super) struct LongRun {
 pub(super) struct LeftOut {
     /// Name of the combination.
     pub(super) variant: String,
-    /// Why.
     pub(super) reason: String,
 }
 

@@ -2,17 +2,9 @@
 
 use ukcore::model::Reference;
 use ukcore::spec::Spec;
-use ukcore::{Error, Method, Prepared, Simulation, State};
+use ukcore::{Method, Prepared, Simulation, State, Trajectory};
 
 use crate::failure::Failure;
-
-/// How a motion is integrated that serves as reference.
-#[derive(Debug, Clone, Copy)]
-struct Way {
-    method: Method,
-    tolerance: f64,
-    max_step: Option<f64>,
-}
 
 /// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding, also
 /// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is
@@ -33,14 +25,13 @@ const INTERVALS: u32 = 12;
 /// States along a motion, and the sizes of its coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Truth {
-    /// Where the states come from.
     pub(super) source: String,
     /// Largest error that the states may have, in the norm of [`Truth::errors`].
     pub(super) floor: f64,
     /// Times of the states, in order.
     pub(super) times: Vec<f64>,
     /// (q, q̇) at these times.
-    states: Vec<Vec<f64>>,
+    pub(super) states: Vec<Vec<f64>>,
     /// Sizes of (q, q̇).
     pub(super) scale: Vec<f64>,
 }
@@ -71,9 +62,6 @@ impl Truth {
 
     /// The best that there is for a motion to `end`: what is shipped; what is computed where that is known better by far and agrees with
     /// what is shipped, or where nothing is.
-    ///
-    /// # Errors
-    /// What [`Truth::computed`] reports, where nothing is shipped.
     pub(super) fn of(
         mechanism: &Prepared,
         start: &State,
@@ -102,26 +90,32 @@ impl Truth {
 
     /// By DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another method differs is
     /// told.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the model.
     pub(super) fn computed(
         mechanism: &Prepared,
         start: &State,
         times: Vec<f64>,
     ) -> Result<Self, Failure> {
-        let span = times.last().map_or(0.0, |end| end - start.t);
-        let run = |method, tolerance, max_step| {
-            let way = Way {
-                method,
-                tolerance,
-                max_step,
-            };
-            along(mechanism, start, &times, way)
-                .map_err(|error| Failure::Failed(format!("there is no reference: {error}")))
+        let end = times.last().copied().unwrap_or(start.t);
+        // With steps as short as those of a reference, interpolation adds nothing.
+        let run = |method, tolerance, max_step: Option<f64>| {
+            let mut simulation = Simulation::new(mechanism)
+                .start(start.clone())
+                .method(method)
+                .tolerance(tolerance)
+                .at(times.clone());
+            if let Some(step) = max_step {
+                simulation = simulation.max_step(step);
+            }
+            match simulation.until(end) {
+                Ok(run) => Ok((states(&run), run.work().steps)),
+                Err(failed) => Err(Failure::Failed(format!(
+                    "there is no reference: {}",
+                    failed.error
+                ))),
+            }
         };
         let (_, steps) = run(Method::Dop853, TIGHT, None)?;
-        let short = SHORT * span.abs() / steps.max(1) as f64;
+        let short = SHORT * (end - start.t).abs() / steps.max(1) as f64;
         let (states, _) = run(Method::Dop853, TIGHT, Some(short))?;
         let (coarser, _) = run(Method::Dop853, 10.0 * TIGHT, Some(LONGER * short))?;
         let (other, _) = run(Method::Dopri5, TIGHT, None)?;
@@ -143,26 +137,17 @@ impl Truth {
     }
 
     /// Largest scaled distance of states at the same times.
-    fn largest(&self, states: &[Vec<f64>]) -> f64 {
-        let distances = states.iter().enumerate();
-        distances
-            .map(|(k, state)| self.errors(k, state).scaled)
-            .fold(0.0, f64::max)
+    pub(super) fn largest(&self, states: &[Vec<f64>]) -> f64 {
+        let scaled = |(k, state): (usize, &Vec<f64>)| self.errors(k, state).scaled;
+        states.iter().enumerate().map(scaled).fold(0.0, f64::max)
     }
 
-    /// End of the motion.
     pub(super) fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    /// Number of the last state.
     pub(super) fn last(&self) -> usize {
         self.times.len().saturating_sub(1)
-    }
-
-    /// (q, q̇) number `index`.
-    pub(super) fn state(&self, index: usize) -> &[f64] {
-        &self.states[index]
     }
 
     /// Distance of (q, q̇) from state number `index`.
@@ -202,25 +187,10 @@ pub(crate) fn stacked(state: &State) -> Vec<f64> {
     [state.q.as_slice(), &state.v].concat()
 }
 
-/// (q, q̇) at `times`, and the steps taken. With steps as short as those of a reference, interpolation adds nothing.
-fn along(
-    mechanism: &Prepared,
-    start: &State,
-    times: &[f64],
-    way: Way,
-) -> Result<(Vec<Vec<f64>>, usize), Error> {
-    let mut simulation = Simulation::new(mechanism)
-        .start(start.clone())
-        .method(way.method)
-        .tolerance(way.tolerance)
-        .at(times.to_vec());
-    if let Some(step) = way.max_step {
-        simulation = simulation.max_step(step);
-    }
-    let end = times.last().copied().unwrap_or(start.t);
-    let run = simulation.until(end).map_err(|failure| failure.error)?;
-    let states = run.samples().map(|sample| stacked(&sample.to_state()));
-    Ok((states.collect(), run.work().steps))
+/// (q, q̇) of all samples of a run.
+pub(crate) fn states(run: &Trajectory) -> Vec<Vec<f64>> {
+    let samples = run.samples();
+    samples.map(|sample| stacked(&sample.to_state())).collect()
 }
 
 /// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The
@@ -307,7 +277,7 @@ mod tests {
         let shipped = Truth::shipped(mechanism.spec(), &start(), &closed());
         let computed = Truth::computed(&mechanism, &start(), shipped.times.clone());
         let computed = computed.expect("the runs succeed");
-        let error = shipped.errors(shipped.last(), computed.state(computed.last()));
+        let error = shipped.errors(shipped.last(), &computed.states[computed.last()]);
         let bound = 3.0 * (shipped.floor + computed.floor);
         assert!(error.scaled < bound, "{error:?} {bound:e}");
     }

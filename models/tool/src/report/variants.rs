@@ -7,20 +7,12 @@ use ukcore::{Method, Simulation, Stabilisation};
 
 use Engine::{Adaptive, Rattle};
 use Method::{Dop853, Dopri5, Radau5};
-use Solve::{Automatic, Dense, General};
 use Stabilisation::{None, Projection};
 use Switching::{Ignored, Located};
 
-/// Where the accelerations come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Solve {
-    /// [`Formula::Auto`]: the straight line where there is one.
-    Automatic,
-    /// Gaussian elimination of the dense [M Aᵀ; A 0].
-    Dense,
-    /// The rank-revealing solve of eq. 13, or of eq. 19 where M is singular.
-    General,
-}
+const AUTOMATIC: Option<Formula> = Some(Formula::Auto);
+const DENSE: Option<Formula> = Some(Formula::Kkt);
+const GENERAL: Option<Formula> = Option::None;
 
 /// How a method advances, and what its accuracy is set by.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,18 +23,16 @@ pub(super) enum Engine {
     Rattle,
 }
 
-/// A combination.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Variant {
     /// Its name in JSON and CSV.
     pub(super) name: &'static str,
     /// Its name on the page.
     pub(super) label: &'static str,
-    /// The method.
     pub(super) engine: Engine,
-    /// The solver.
-    pub(super) solve: Solve,
-    /// The stabilisation.
+    /// The formula: [`Formula::Auto`] is the straight line where there is one; none is the rank-revealing solve of eq. 13, or of eq. 19
+    /// where M is singular.
+    pub(super) formula: Option<Formula>,
     pub(super) stabilisation: Stabilisation,
     /// What is done about kinks and jumps.
     pub(super) switching: Switching,
@@ -56,12 +46,12 @@ const fn baumgarte(rate: f64) -> Stabilisation {
 }
 
 macro_rules! variants {
-    ($($name:literal $label:literal $engine:expr, $solve:expr, $stabilisation:expr, $switching:expr;)*) => {
+    ($($name:literal $label:literal $engine:expr, $formula:expr, $stabilisation:expr, $switching:expr;)*) => {
         &[$(Variant {
             name: $name,
             label: $label,
             engine: $engine,
-            solve: $solve,
+            formula: $formula,
             stabilisation: $stabilisation,
             switching: $switching,
         }),*]
@@ -70,18 +60,18 @@ macro_rules! variants {
 
 /// All combinations; the first is the default of [`Simulation`]. Of two that cost alike the earlier one is recommended.
 pub(super) const VARIANTS: &[Variant] = variants! {
-    "dop853" "DOP853, projection"                         Adaptive(Dop853), Automatic, Projection, Located;
-    "dopri5" "DOPRI5, projection"                         Adaptive(Dopri5), Automatic, Projection, Located;
-    "radau5" "Radau IIA 5, projection"                    Adaptive(Radau5), Automatic, Projection, Located;
-    "rattle" "RATTLE"                                     Rattle, Automatic, Projection, Located;
-    "dop853-across" "DOP853, projection, across switches" Adaptive(Dop853), Automatic, Projection, Ignored;
-    "dop853-none" "DOP853, no stabilisation"              Adaptive(Dop853), Automatic, None, Located;
-    "dopri5-none" "DOPRI5, no stabilisation"              Adaptive(Dopri5), Automatic, None, Located;
-    "dop853-baumgarte20" "DOP853, Baumgarte 20/s"         Adaptive(Dop853), Automatic, baumgarte(20.0), Located;
-    "dop853-baumgarte200" "DOP853, Baumgarte 200/s"       Adaptive(Dop853), Automatic, baumgarte(200.0), Located;
-    "dop853-general" "DOP853, projection, eq. 13 or 19"   Adaptive(Dop853), General, Projection, Located;
-    "dopri5-general" "DOPRI5, projection, eq. 13 or 19"   Adaptive(Dopri5), General, Projection, Located;
-    "dop853-kkt" "DOP853, projection, dense KKT"          Adaptive(Dop853), Dense, Projection, Located;
+    "dop853" "DOP853, projection"                         Adaptive(Dop853), AUTOMATIC, Projection, Located;
+    "dopri5" "DOPRI5, projection"                         Adaptive(Dopri5), AUTOMATIC, Projection, Located;
+    "radau5" "Radau IIA 5, projection"                    Adaptive(Radau5), AUTOMATIC, Projection, Located;
+    "rattle" "RATTLE"                                     Rattle, AUTOMATIC, Projection, Located;
+    "dop853-across" "DOP853, projection, across switches" Adaptive(Dop853), AUTOMATIC, Projection, Ignored;
+    "dop853-none" "DOP853, no stabilisation"              Adaptive(Dop853), AUTOMATIC, None, Located;
+    "dopri5-none" "DOPRI5, no stabilisation"              Adaptive(Dopri5), AUTOMATIC, None, Located;
+    "dop853-baumgarte20" "DOP853, Baumgarte 20/s"         Adaptive(Dop853), AUTOMATIC, baumgarte(20.0), Located;
+    "dop853-baumgarte200" "DOP853, Baumgarte 200/s"       Adaptive(Dop853), AUTOMATIC, baumgarte(200.0), Located;
+    "dop853-general" "DOP853, projection, eq. 13 or 19"   Adaptive(Dop853), GENERAL, Projection, Located;
+    "dopri5-general" "DOPRI5, projection, eq. 13 or 19"   Adaptive(Dopri5), GENERAL, Projection, Located;
+    "dop853-kkt" "DOP853, projection, dense KKT"          Adaptive(Dop853), DENSE, Projection, Located;
 };
 
 /// Combinations that the list leaves out, and why.
@@ -115,7 +105,7 @@ impl Variant {
     /// do.
     fn is_dense(&self) -> bool {
         let feedback = matches!(self.stabilisation, Stabilisation::Baumgarte(_));
-        self.solve != Automatic || feedback
+        self.formula != AUTOMATIC || feedback
     }
 
     /// Why the combination makes no sense for a model with this `spec`, if so.
@@ -126,7 +116,7 @@ impl Variant {
         if spec.switches.is_empty() && self.switching == Ignored {
             return Some("there is no switch to step across");
         }
-        if self.solve == General && !spec.structure.straight_line {
+        if self.formula == GENERAL && !spec.structure.straight_line {
             return Some("the automatic choice is this formula: there is no straight line");
         }
         Option::None
@@ -154,11 +144,7 @@ impl Variant {
         let simulation = simulation
             .stabilise(self.stabilisation)
             .switching(self.switching)
-            .formula(match self.solve {
-                Automatic => Formula::Auto,
-                Dense => Formula::Kkt,
-                General => general,
-            });
+            .formula(self.formula.unwrap_or(general));
         match self.engine {
             Adaptive(method) => simulation.method(method).tolerance(knob),
             Rattle => simulation.method(Method::Rattle { step: knob }),

@@ -1,8 +1,6 @@
 //! What follows from the figures: which combination to take for which accuracy, and what it costs.
 
-use crate::numbers::median;
-
-use super::study::{Curve, LongRun, Study};
+use super::study::{Curve, Figures, LongRun, Study};
 use super::variants::{VARIANTS, Variant};
 
 /// Accuracies that a user may want, scaled error at the end.
@@ -20,10 +18,25 @@ pub(super) const DEFAULT_TOLERANCE: f64 = 1e-9;
 pub(super) struct Cost {
     /// Tolerance, or step in s.
     pub(super) knob: f64,
-    /// Time, s.
     pub(super) seconds: f64,
-    /// Evaluations.
     pub(super) evaluations: f64,
+}
+
+impl Cost {
+    fn of(knob: f64, figures: &Figures) -> Self {
+        Cost {
+            knob,
+            seconds: figures.seconds,
+            evaluations: figures.evaluations as f64,
+        }
+    }
+
+    fn beside(self, other: Cost) -> Price {
+        Price {
+            time: self.seconds / other.seconds,
+            evaluations: self.evaluations / other.evaluations,
+        }
+    }
 }
 
 /// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before
@@ -35,14 +48,7 @@ pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
     }
     let runs: Vec<(f64, Cost)> = curve
         .figures()
-        .map(|(knob, f)| {
-            let cost = Cost {
-                knob,
-                seconds: f.seconds,
-                evaluations: f.evaluations as f64,
-            };
-            (study.claimed(f.error), cost)
-        })
+        .map(|(knob, f)| (study.claimed(f.error), Cost::of(knob, f)))
         .collect();
     let met = |k: usize| runs.get(k).is_none_or(|(error, _)| *error <= goal);
     let first = (0..runs.len()).find(|&k| met(k) && met(k + 1))?;
@@ -66,9 +72,7 @@ pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
 /// A combination recommended for an accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Choice {
-    /// The combination.
     pub(super) variant: &'static Variant,
-    /// What the accuracy costs with it.
     pub(super) cost: Cost,
     /// The least time by any combination, s.
     pub(super) least: f64,
@@ -103,7 +107,6 @@ pub(super) fn choice(study: &Study, goal: f64, among: Among) -> Option<Choice> {
 /// A row of the table of recommendations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tally {
-    /// The combination.
     pub(super) variant: &'static Variant,
     /// Motions for which it is the one to take among those that keep the constraints, by accuracy.
     pub(super) kept: [usize; GOALS.len()],
@@ -148,7 +151,7 @@ pub(super) fn tally(studies: &[Study]) -> Vec<Tally> {
 }
 
 /// How the default combination of [`ukcore::Simulation`] compares with the best, over all motions.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Default)]
 pub(super) struct Standing {
     /// Cases (motion and accuracy) that some combination reaches.
     pub(super) cases: usize,
@@ -158,20 +161,10 @@ pub(super) struct Standing {
     pub(super) missed: usize,
     /// The largest ratio of its time to the least, with motion and accuracy.
     pub(super) worst: Option<(f64, String, f64)>,
-    /// Ratios of its time to the least: the median.
-    pub(super) median: Option<f64>,
 }
 
-/// Looks at the default combination.
 pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
-    let mut found = Standing {
-        cases: 0,
-        best: 0,
-        missed: 0,
-        worst: None,
-        median: None,
-    };
-    let mut ratios = Vec::new();
+    let mut found = Standing::default();
     for study in studies {
         for goal in GOALS {
             let Some(choice) = choice(study, goal, among) else {
@@ -185,13 +178,11 @@ pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
             };
             let ratio = cost.seconds / choice.least;
             found.best += usize::from(ratio <= TIE);
-            ratios.push(ratio);
             if found.worst.as_ref().is_none_or(|w| ratio > w.0) {
                 found.worst = Some((ratio, study.name.clone(), goal));
             }
         }
     }
-    found.median = median(ratios);
     found
 }
 
@@ -237,11 +228,7 @@ pub(super) struct Price {
 /// What `variant` costs beside `other` for the accuracy `goal`.
 pub(super) fn price(study: &Study, variant: &str, other: &str, goal: f64) -> Option<Price> {
     let own = cost(study, study.curve(variant)?, goal)?;
-    let beside = cost(study, study.curve(other)?, goal)?;
-    Some(Price {
-        time: own.seconds / beside.seconds,
-        evaluations: own.evaluations / beside.evaluations,
-    })
+    Some(own.beside(cost(study, study.curve(other)?, goal)?))
 }
 
 /// What `variant` costs beside `other` at the same setting, and by how much its error is larger.
@@ -253,17 +240,14 @@ pub(super) fn price_at(
 ) -> Option<(Price, f64)> {
     let own = study.curve(variant)?.at(knob)?;
     let beside = study.curve(other)?.at(knob)?;
-    let price = Price {
-        time: own.seconds / beside.seconds,
-        evaluations: own.evaluations as f64 / beside.evaluations as f64,
-    };
+    let price = Cost::of(knob, own).beside(Cost::of(knob, beside));
     let ratio = study.claimed(own.error) / study.claimed(beside.error);
     Some((price, ratio))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Figures, Limits, Point, Source};
+    use super::super::study::{Limits, Point, Source};
     use super::*;
     use crate::drift::Drift;
 

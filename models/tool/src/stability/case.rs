@@ -41,7 +41,7 @@ impl Effort {
 pub type Measure<'a> = &'a (dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync);
 
 /// A case: one thing that is swept, what results are compared with, and what counts as right.
-#[derive(Clone)]
+#[derive(Clone, Serialize)]
 pub struct Case<'a> {
     /// Name on the command line.
     pub id: &'a str,
@@ -50,21 +50,26 @@ pub struct Case<'a> {
     /// What the results are compared with.
     pub oracle: &'a str,
     /// Errors up to this are full accuracy.
+    #[serde(rename = "accurate_to")]
     pub accurate: f64,
     /// Errors up to this are degraded within bounds; beyond, only an error with a name will do.
     pub bound: f64,
     /// The values, each with the text that stands for it if that is not the number.
+    #[serde(flatten)]
     pub sweep: Sweep,
     /// The error at a value.
+    #[serde(skip)]
     pub measure: Measure<'a>,
 }
 
 /// Values in order, and which of them is the ordinary one from which the others move away.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Sweep {
     /// The values.
+    #[serde(skip)]
     pub values: Vec<f64>,
     /// Text of each value; the number where there is none.
+    #[serde(skip)]
     pub labels: &'static [&'static str],
     /// The index of the ordinary value.
     pub ordinary: usize,
@@ -137,7 +142,7 @@ fn short(value: f64) -> String {
 /// How the result at a value of a sweep compares with its oracle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Class {
+pub(super) enum Class {
     /// As exact as at ordinary values.
     Accurate,
     /// Less exact, but within the bound of the case.
@@ -150,7 +155,7 @@ pub enum Class {
 
 impl Class {
     /// All classes, from good to bad.
-    pub const ALL: [Class; 4] = [
+    pub(super) const ALL: [Class; 4] = [
         Class::Accurate,
         Class::Degraded,
         Class::Refused,
@@ -158,8 +163,7 @@ impl Class {
     ];
 
     /// The word for the class in tables and on pages.
-    #[must_use]
-    pub fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Class::Accurate => "accurate",
             Class::Degraded => "degraded",
@@ -171,46 +175,32 @@ impl Class {
 
 /// What came out at one value of a case.
 #[derive(Debug, Clone, Serialize)]
-pub struct Point {
-    /// The value.
-    pub value: f64,
-    /// Its text.
-    pub label: String,
-    /// How it came out.
-    pub class: Class,
+pub(super) struct Point {
+    pub(super) value: f64,
+    /// The text that stands for it.
+    pub(super) label: String,
+    pub(super) class: Class,
     /// The error; none where it was refused.
-    pub error: Option<f64>,
+    pub(super) error: Option<f64>,
     /// Name and message of the refusal.
-    pub refusal: Option<(&'static str, String)>,
-    /// What was computed for it.
+    pub(super) refusal: Option<(&'static str, String)>,
     #[serde(flatten)]
-    pub effort: Effort,
+    pub(super) effort: Effort,
     /// Wall time, s.
-    pub seconds: f64,
+    pub(super) seconds: f64,
 }
 
 /// What came out of a case, at all its values.
-#[derive(Debug, Clone, Serialize)]
-pub struct Row<'a> {
-    /// [`Case::id`].
-    pub id: &'a str,
-    /// [`Case::swept`].
-    pub swept: &'a str,
-    /// [`Case::oracle`].
-    pub oracle: &'a str,
-    /// [`Case::accurate`].
-    pub accurate_to: f64,
-    /// [`Case::bound`].
-    pub bound: f64,
-    /// [`Sweep::ordinary`].
-    pub ordinary: usize,
-    /// The values.
-    pub points: Vec<Point>,
+#[derive(Clone, Serialize)]
+pub(super) struct Row<'a> {
+    #[serde(flatten)]
+    pub(super) case: &'a Case<'a>,
+    pub(super) points: Vec<Point>,
 }
 
-impl<'a> Case<'a> {
+impl Case<'_> {
     /// All values; `None` if interrupted before the last. `done` hears of each value.
-    pub fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row<'a>> {
+    pub(super) fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row<'_>> {
         let mut points = Vec::with_capacity(self.sweep.values.len());
         for (index, &value) in self.sweep.values.iter().enumerate() {
             if interrupt.is_set() {
@@ -219,15 +209,7 @@ impl<'a> Case<'a> {
             points.push(self.point(index, value));
             done();
         }
-        Some(Row {
-            id: self.id,
-            swept: self.swept,
-            oracle: self.oracle,
-            accurate_to: self.accurate,
-            bound: self.bound,
-            ordinary: self.sweep.ordinary,
-            points,
-        })
+        Some(Row { case: self, points })
     }
 
     fn point(&self, index: usize, value: f64) -> Point {
@@ -254,32 +236,28 @@ impl<'a> Case<'a> {
 
 impl Row<'_> {
     /// The values around the ordinary one, without a gap, that `good` admits; as indices, the last one included.
-    pub fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
+    fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
         let ok = |i: usize| good(self.points[i].class);
-        if !ok(self.ordinary) {
-            return None;
-        }
-        let first = (0..=self.ordinary).rev().take_while(|i| ok(*i)).last();
-        let last = (self.ordinary..self.points.len())
-            .take_while(|i| ok(*i))
-            .last();
+        let ordinary = self.case.sweep.ordinary;
+        let first = (0..=ordinary).rev().take_while(|i| ok(*i)).last();
+        let last = (ordinary..self.points.len()).take_while(|i| ok(*i)).last();
         first.zip(last)
     }
 
     /// That range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
-    pub fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
+    pub(super) fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
         let Some((first, last)) = self.range(good) else {
             return "–".to_owned();
         };
         let label = |i: usize| self.points[i].label.as_str();
-        if self.ordinary == 0 {
+        if self.case.sweep.ordinary == 0 {
             return format!("to {}", label(last));
         }
         format!("{} … {}", label(first), label(last))
     }
 
     /// The names of the errors with which values were refused, each once.
-    pub fn refusals(&self) -> Vec<&'static str> {
+    pub(super) fn refusals(&self) -> Vec<&'static str> {
         let mut names: Vec<&'static str> = Vec::new();
         for (name, _) in self.points.iter().filter_map(|p| p.refusal.as_ref()) {
             if !names.contains(name) {
@@ -290,12 +268,12 @@ impl Row<'_> {
     }
 
     /// The number of values that came out as `class`.
-    pub fn count(&self, class: Class) -> usize {
+    pub(super) fn count(&self, class: Class) -> usize {
         self.points.iter().filter(|p| p.class == class).count()
     }
 
     /// The work of all values together, and their time in seconds.
-    pub fn total(&self) -> (Effort, f64) {
+    pub(super) fn total(&self) -> (Effort, f64) {
         let mut sum = Effort::default();
         for p in &self.points {
             sum.steps += p.effort.steps;
@@ -370,7 +348,7 @@ mod tests {
             measure: &newton,
         };
         let row = case
-            .row(Interrupt::never(), || ())
+            .row(Interrupt::catch().expect("a handler"), || ())
             .expect("not interrupted");
         let classes: Vec<Class> = row.points.iter().map(|p| p.class).collect();
         assert_eq!((classes[0], classes[3]), (Class::Accurate, Class::Degraded));

@@ -25,7 +25,8 @@ use crate::numbers;
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 
-pub use case::{Case, Class, Effort, Measure, Point, Row, Sweep, decades};
+pub use case::{Case, Effort, Measure, Sweep, decades};
+use case::{Class, Row};
 pub use model::{ModelArgs, of_model};
 
 /// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond.
@@ -41,7 +42,7 @@ pub struct StabilityArgs {
 }
 
 /// Every number on the page.
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 struct Stability<'a> {
     about: &'static str,
     /// The motion that all cases change, where it is one.
@@ -51,6 +52,13 @@ struct Stability<'a> {
     cases: Vec<Row<'a>>,
     /// Wall time, s.
     seconds: f64,
+}
+
+impl Stability<'_> {
+    /// The number of values that came out as `class`, in all cases.
+    fn count(&self, class: Class) -> usize {
+        self.cases.iter().map(|row| row.count(class)).sum()
+    }
 }
 
 const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
@@ -102,7 +110,7 @@ fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure>
     directory.json("stability.json", &report)?;
     directory.csv("stability.csv", report.cases.iter().flat_map(lines))?;
     directory.write("index.html", page::html(&report))?;
-    print(out, &report)?;
+    print(&directory, &report)?;
     if !report.complete {
         return Err(Failure::Interrupted(format!(
             "interrupted; {} of {} are written",
@@ -110,38 +118,34 @@ fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure>
             numbers::count(chosen.len(), "case")
         )));
     }
-    match report.cases.iter().map(|r| r.count(Class::Wrong)).sum() {
+    match report.count(Class::Wrong) {
         0 => Ok(()),
         wrong => Err(Failure::Failed(format!(
-            "{} off by more than the bound of the case, and no error said so",
-            match wrong {
-                1 => "1 result is".to_owned(),
-                _ => format!("{wrong} results are"),
-            }
+            "{} {} off by more than the bound of the case, and no error said so",
+            numbers::count(wrong, "result"),
+            if wrong == 1 { "is" } else { "are" },
         ))),
     }
 }
 
 /// The cases with these names, in their own order; all if there is no name.
 fn chosen<'c, 'a>(cases: &'c [Case<'a>], names: &[String]) -> Result<Vec<&'c Case<'a>>, Failure> {
-    for name in names {
-        if !cases.iter().any(|c| c.id == name) {
-            let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
-            let unknown = Error::unknown_name("case", name, &mut ids.iter().copied());
-            let known = ids.join(", ");
-            return Err(Failure::Usage(format!("{unknown}; there are {known}")));
-        }
+    let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
+    if let Some(name) = names.iter().find(|name| !ids.contains(&name.as_str())) {
+        let unknown = Error::unknown_name("case", name, &mut ids.iter().copied());
+        let known = ids.join(", ");
+        return Err(Failure::Usage(format!("{unknown}; there are {known}")));
     }
     let asked = |c: &&Case<'_>| names.is_empty() || names.iter().any(|n| n == c.id);
     Ok(cases.iter().filter(asked).collect())
 }
 
 /// The rows of the cases that were finished.
-fn compute<'a>(cases: &[&Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
+fn compute<'a>(cases: &[&'a Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
     let progress = Progress::new("stability");
     let all: usize = cases.iter().map(|c| c.sweep.values.len()).sum();
     let done = AtomicUsize::new(0);
-    let row = |case: &&Case<'a>| {
+    let row = |case: &&'a Case<'a>| {
         case.row(interrupt, || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / all as f64, || case.id.to_owned());
@@ -155,12 +159,10 @@ fn compute<'a>(cases: &[&Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
 
 fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
     row.points.iter().map(|p| {
-        let (refusal, message) = match &p.refusal {
-            Some((name, message)) => (*name, message.as_str()),
-            None => ("", ""),
-        };
+        let refusal = p.refusal.as_ref();
+        let (refusal, message) = refusal.map_or(("", ""), |(name, told)| (*name, told));
         Line {
-            case: row.id,
+            case: row.case.id,
             value: p.value,
             label: &p.label,
             class: p.class.word(),
@@ -176,9 +178,9 @@ fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
 }
 
 /// The table at the terminal.
-fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
+fn print(directory: &Directory, report: &Stability<'_>) -> Result<(), Failure> {
     output::to_stdout(|w| {
-        let width = numbers::width(report.cases.iter().map(|r| r.id));
+        let width = numbers::width(report.cases.iter().map(|r| r.case.id));
         let accurate = |c| c == Class::Accurate;
         let bounded = |c| c == Class::Accurate || c == Class::Degraded;
         writeln!(
@@ -191,37 +193,27 @@ fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
             writeln!(
                 w,
                 "{:width$}  {:17} {:17} {:>6.0e}  {:>11} {:>9} {:>6.1}  {}",
-                row.id,
+                row.case.id,
                 row.range_text(accurate),
                 row.range_text(bounded),
-                row.bound,
+                row.case.bound,
                 effort.evaluations,
                 effort.fallbacks,
                 seconds,
                 beyond(row)
             )?;
         }
-        let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
-        let counts = Class::ALL.map(|c| format!("{} {}", count(c), c.word()));
-        writeln!(
-            w,
-            "{} in {:.1} s; the report is {}",
-            counts.join(", "),
-            report.seconds,
-            out.join("index.html").display()
-        )
+        let counts = Class::ALL.map(|c| format!("{} {}", report.count(c), c.word()));
+        writeln!(w, "{}", directory.told(&counts.join(", "), report.seconds))
     })
 }
 
 /// What happens beyond the bound, in a few words.
 fn beyond(row: &Row<'_>) -> String {
-    let mut words = row.refusals().join(", ");
-    let wrong = row.count(Class::Wrong);
-    if wrong > 0 {
-        if !words.is_empty() {
-            words.push_str("; ");
-        }
-        words.push_str(&format!("WRONG at {}", numbers::count(wrong, "value")));
+    let refusals = row.refusals().join(", ");
+    match (row.count(Class::Wrong), refusals.as_str()) {
+        (0, _) => refusals,
+        (wrong, "") => format!("WRONG at {}", numbers::count(wrong, "value")),
+        (wrong, _) => format!("{refusals}; WRONG at {}", numbers::count(wrong, "value")),
     }
-    words
 }

@@ -13,7 +13,7 @@ use crate::command;
 use crate::failure::Failure;
 use crate::motion;
 use crate::numbers::short;
-use crate::report::{distance, grow, scale, stacked};
+use crate::report::{distance, grow, scale, states};
 use crate::scene::{Ready, Scene};
 
 /// The command-line arguments of the command `stability` of a model, to be flattened into a parser of `clap`.
@@ -59,67 +59,66 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     let about = format!("`{id}` from `{from}`, {length} s");
     let subject = Subject::new(ready, start.map(|start| (start.name, options)), args.until);
     let mut sweeps = Vec::new();
-    let spec = subject.mechanism.spec();
+    let spec = subject.ready.mechanism.spec();
     // No two cases have one name.
     let free = |name, instead| match spec.params.iter().any(|p| p.name == name) {
         true => instead,
         false => name,
     };
-    for (i, (parameter, value)) in spec
-        .params
-        .iter()
-        .zip(subject.mechanism.parameters())
-        .enumerate()
-    {
+    let mut add = |id, swept: String, values, change| sweeps.push((id, swept, values, change));
+    let usual = subject.ready.mechanism.parameters().iter();
+    for (i, (parameter, value)) in spec.params.iter().zip(usual).enumerate() {
         if *value != 0.0 {
             let swept = format!("parameter {}, times what it is", parameter.name);
-            sweeps.push((
+            add(
                 parameter.name,
                 swept,
                 decades(-12, 12, 3, 0),
                 Change::Parameter(i),
-            ));
+            );
         }
     }
-    if subject.state.v.iter().any(|v| *v != 0.0) {
+    if subject.ready.state.v.iter().any(|v| *v != 0.0) {
         let swept = "velocities of the start, times what they are".to_owned();
-        let name = free("speed", "start-speed");
-        sweeps.push((name, swept, decades(-6, 6, 2, 0), Change::Speed));
+        add(
+            free("speed", "start-speed"),
+            swept,
+            decades(-6, 6, 2, 0),
+            Change::Speed,
+        );
     }
+    let swept = "tolerance; errors are in units of it".to_owned();
     let tolerances = Sweep {
         ordinary: 6,
         ..decades(-3, -15, 1, -9)
     };
-    sweeps.push((
+    add(
         free("tolerance", "run-tolerance"),
-        "tolerance; errors are in units of it".to_owned(),
+        swept,
         tolerances,
         Change::Tolerance,
-    ));
-
+    );
     let measures = sweeps.iter().map(|(.., change)| {
         let subject = &subject;
         move |value: f64, effort: &mut Effort| subject.error(*change, value, effort)
     });
     let measures: Vec<_> = measures.collect();
-    let cases = sweeps
-        .iter()
-        .zip(&measures)
-        .map(|((id, swept, values, change), measure)| Case {
+    let cases = sweeps.iter().zip(&measures);
+    let cases = cases.map(|((id, swept, values, change), measure)| {
+        let (accurate, bound) = match change {
+            Change::Tolerance => (GATHERED, BOUND / TOLERANCE),
+            _ => (GATHERED * TOLERANCE, BOUND),
+        };
+        Case {
             id,
             swept,
             oracle: ORACLE,
-            accurate: match change {
-                Change::Tolerance => GATHERED,
-                _ => GATHERED * TOLERANCE,
-            },
-            bound: match change {
-                Change::Tolerance => BOUND / TOLERANCE,
-                _ => BOUND,
-            },
+            accurate,
+            bound,
             sweep: values.clone(),
             measure,
-        });
+        }
+    });
     let cases: Vec<Case<'_>> = cases.collect();
     sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)
 }
@@ -137,11 +136,9 @@ enum Change {
 
 /// A model, at its start.
 struct Subject<'a> {
-    entry: &'a Entry,
-    mechanism: Prepared,
+    ready: Ready<'a>,
     /// Name and options of the start, if it has one.
     start: Option<(&'static str, StartOptions)>,
-    state: State,
     length: f64,
 }
 
@@ -162,25 +159,23 @@ impl<'a> Subject<'a> {
         until: Option<f64>,
     ) -> Self {
         Subject {
-            entry: ready.entry,
-            mechanism: ready.mechanism,
             start: start.filter(|(name, _)| *name == ready.start),
             length: until.unwrap_or(ready.duration) - ready.state.t,
-            state: ready.state,
+            ready,
         }
     }
 
     /// The error of the motion with this change.
     fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
-        let mut mechanism = self.mechanism.clone();
+        let mut mechanism = self.ready.mechanism.clone();
         let mut tolerance = TOLERANCE;
-        let mut state = self.state.clone();
+        let mut state = self.ready.state.clone();
         match change {
             Change::Parameter(i) => {
                 let name = mechanism.spec().params[i].name;
-                mechanism.set(name, self.mechanism.parameters()[i] * value)?;
+                mechanism.set(name, self.ready.mechanism.parameters()[i] * value)?;
                 state = match &self.start {
-                    Some((name, options)) => self.entry.start(&mechanism, name, options)?,
+                    Some((name, options)) => self.ready.entry.start(&mechanism, name, options)?,
                     None => assemble(&mechanism, &state, &[])?,
                 };
             }
@@ -259,7 +254,7 @@ impl<'a> Subject<'a> {
 
     /// The formula of the paper for this mass matrix.
     fn printed(&self) -> Formula {
-        match self.mechanism.spec().structure.massless.is_empty() {
+        match self.ready.mechanism.spec().structure.massless.is_empty() {
             true => Formula::UdwadiaKalaba,
             false => Formula::UdwadiaPhohomsiri,
         }
@@ -292,11 +287,7 @@ impl Motion<'_> {
             .tolerance(way.tolerance)
             .max_steps(way.steps)
             .at(times);
-        let run = effort.run(simulation, until)?;
-        Ok(run
-            .samples()
-            .map(|sample| stacked(&sample.to_state()))
-            .collect())
+        Ok(states(&effort.run(simulation, until)?))
     }
 
     /// By how much the motion magnifies a small change at `place`, a state of it: its states without one are known, with their sizes.

@@ -6,8 +6,9 @@ use super::Stability;
 use super::case::{Class, Point, Row};
 use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, table};
 
-/// index.html.
 pub(super) fn html(report: &Stability<'_>) -> String {
+    let cases = html! { (picture()) (summary(&report.cases)) };
+    let every = html! { @for row in &report.cases { (values(row)) } };
     let page = Page {
         title: "Stiff and extreme cases",
         head: head(report),
@@ -16,18 +17,8 @@ pub(super) fn html(report: &Stability<'_>) -> String {
             ("stability.csv", "CSV"),
         ],
         sections: vec![
-            Section {
-                id: "cases",
-                link: "Cases",
-                title: "Cases",
-                body: html! { (picture()) (summary(&report.cases)) },
-            },
-            Section {
-                id: "values",
-                link: "Every value",
-                title: "Every value",
-                body: html! { @for row in &report.cases { (values(row)) } },
-            },
+            Section::new("cases", "Cases", "Cases", cases),
+            Section::new("values", "Every value", "Every value", every),
         ],
         foot: html! {},
     };
@@ -35,8 +26,7 @@ pub(super) fn html(report: &Stability<'_>) -> String {
 }
 
 fn head(report: &Stability<'_>) -> Markup {
-    let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
-    let [accurate, degraded, refused, wrong] = Class::ALL.map(count);
+    let [accurate, degraded, refused, wrong] = Class::ALL.map(|class| report.count(class));
     html! {
         p.lead {
             @if !report.subject.is_empty() { (message(report.subject)) ". " }
@@ -73,11 +63,11 @@ fn summary(rows: &[Row<'_>]) -> Markup {
         let wrong = row.count(Class::Wrong);
         vec![
             Cell::Text(
-                html! { a href=(format!("#{}", row.id)) { (row.id) } br; small { (row.swept) } },
+                html! { a href=(format!("#{}", row.case.id)) { (row.case.id) } br; small { (row.case.swept) } },
             ),
             Cell::text(row.range_text(|c| c == Class::Accurate)),
             Cell::text(row.range_text(|c| c == Class::Accurate || c == Class::Degraded)),
-            Cell::power(row.bound),
+            Cell::power(row.case.bound),
             Cell::Text(html! {
                 (row.refusals().join(", "))
                 @if wrong > 0 { " " b.fails { (wrong) " wrong" } }
@@ -96,12 +86,12 @@ fn summary(rows: &[Row<'_>]) -> Markup {
 
 fn values(row: &Row<'_>) -> Markup {
     let caption = html! {
-        (row.swept) ". Compared with: " (row.oracle) ". Full accuracy: " (power_of_ten(row.accurate_to)) "; bound: "
-         (power_of_ten(row.bound)) "."
+        (row.case.swept) ". Compared with: " (row.case.oracle) ". Full accuracy: " (power_of_ten(row.case.accurate)) "; bound: "
+         (power_of_ten(row.case.bound)) "."
     };
     let heads = "value | outcome | error | steps | evaluations | fallbacks | what was said";
     html! {
-        h3 id=(row.id) { (row.id) }
+        h3 id=(row.case.id) { (row.case.id) }
         (table(caption, heads, row.points.iter().map(value)))
     }
 }

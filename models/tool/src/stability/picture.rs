@@ -1,12 +1,11 @@
 //! The summary as a picture: a bar a case, a cell a value, coloured by how it came out.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::case::{Class, Row};
 use crate::failure::Failure;
-use crate::plot::{DrawError, FONT, svg};
+use crate::plot::{Area, DrawError, svg, write};
 
 const WIDTH: i32 = 800;
 const HEAD: i32 = 44;
@@ -26,12 +25,7 @@ fn look(class: Class) -> (RGBColor, &'static str) {
     }
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
 /// The picture as the text of an SVG file.
-///
-/// # Errors
-/// [`Failure::Failed`] if the drawing library fails.
 pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     let height = HEAD + PITCH * rows.len() as i32 + 10;
     svg((WIDTH as u32, height as u32), 1, |area| {
@@ -50,22 +44,9 @@ pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     })
 }
 
-fn write<'a>(
-    area: &Area<'a>,
-    place: (i32, i32),
-    side: HPos,
-    size: i32,
-    text: &str,
-) -> Result<(), DrawError<'a>> {
-    let style = (FONT, size)
-        .into_text_style(area)
-        .pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text, place, style))
-}
-
 fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>> {
     let middle = top + BAR / 2;
-    write(area, (14, middle), HPos::Left, 13, row.id)?;
+    write(area, (14, middle), HPos::Left, 13, row.case.id)?;
     let named = row.points.iter().any(|p| p.label.contains(' '));
     if let (Some(first), Some(last), false) = (row.points.first(), row.points.last(), named) {
         write(area, (LEFT - 8, middle), HPos::Right, 12, &first.label)?;
@@ -87,8 +68,8 @@ fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>
         ))?;
     }
     // The ordinary value, where it is not at an end.
-    if row.ordinary > 0 && row.ordinary + 1 < row.points.len() {
-        let place = (left(row.ordinary as f64 + 0.5), middle);
+    if row.case.sweep.ordinary > 0 && row.case.sweep.ordinary + 1 < row.points.len() {
+        let place = (left(row.case.sweep.ordinary as f64 + 0.5), middle);
         area.draw(&Circle::new(place, 2, WHITE.filled()))?;
     }
     Ok(())

@@ -1,11 +1,10 @@
 //! Case 1: the falling U-chain (§3-5), one run for each initial separation.
 
-use models::uchain::TABLE_1;
+use models::uchain::{TABLE_1, TableRow};
 use models::{Model, StartOptions, UChain};
 use serde::Serialize;
 use ukcore::Event;
 use ukcore::simulate::Direction;
-use uktool::animate;
 use uktool::command;
 use uktool::failure::Failure;
 use uktool::scene::{Place, Start};
@@ -98,26 +97,25 @@ pub(super) const FILM: &str = "chain-falling.html";
 /// The fall from the first and the last row of Table 1 side by side.
 pub(super) fn film() -> Result<String, Failure> {
     let [first, .., last] = TABLE_1;
-    let rows = [first, last].map(|row| (format!("x0 = {} m", row.x0), row.x0));
-    let runs = rows.each_ref().map(|(label, x0)| {
+    let runs = [first, last].map(|row| {
         let start = Start {
             place: Place {
                 start: Some(PAPER_START.to_owned()),
                 ..Place::default()
             },
-            settings: vec![("x0".to_owned(), (*x0).into())],
+            settings: vec![("x0".to_owned(), row.x0.into())],
         };
-        (label.as_str(), start, motion::played(UNTIL))
+        (format!("x0 = {} m", row.x0), start)
     });
-    let models = models::entries();
-    animate::page_of(command::find(&models, UChain::ID)?, &runs, motion::PICTURES)
+    motion::film(UChain::ID, runs, UNTIL)
 }
 
-/// Runs the chain from the start `start` with the initial separation `x0`.
+/// Runs the chain from the start `start` with the initial separation of a row of Table 1.
 ///
 /// # Errors
 /// [`Failure::Failed`] if the integration fails or the tip does not turn.
-pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
+pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure> {
+    let x0 = printed.x0;
     let name = match start {
         PAPER_START => format!("uchain-{x0}"),
         other => format!("uchain-{other}-{x0}"),
@@ -151,7 +149,8 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
     let before = |t: f64| t <= t_max;
     let (t_peak, peak) = extremum(&mut motion, &acceleration, 1.0, |_| true)?;
     let (t_highest, lowest) = extremum(&mut motion, &acceleration, -1.0, before)?;
-    let above = AboveG::of(&acceleration, g, t_max);
+    let (t_above_g, excess) = excess(&acceleration, g, t_max);
+    let count = excess.len().max(1) as f64;
     let free = chain.free_fall(t_max);
     let least_lead = fall
         .iter()
@@ -169,11 +168,16 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
         lead: h_max - free,
         highest: -lowest,
         t_highest,
-        t_above_g: above.until,
-        mean_above_g: above.mean,
-        part_above_g: above.part,
+        t_above_g,
+        mean_above_g: excess.iter().sum::<f64>() / count,
+        part_above_g: excess.iter().filter(|a| **a > 0.0).count() as f64 / count,
         pull: (g - peak) / g,
-        paper: printed(x0)?,
+        paper: Printed {
+            h_max: printed.h_max,
+            t_max: printed.t_max,
+            free_fall: printed.free_fall,
+            figure: printed.figure,
+        },
     };
     let snapshots = SNAPSHOTS
         .into_iter()
@@ -191,6 +195,14 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
     })
 }
 
+/// The last time before the turn at which ÿ1 > g, and ÿ1 − g at the samples up to then.
+fn excess(samples: &[(f64, f64)], g: f64, t_max: f64) -> (f64, Vec<f64>) {
+    let above = |(t, a): &&(f64, f64)| *t <= t_max && *a > g;
+    let last = samples.iter().rfind(above).map_or(0.0, |(t, _)| *t);
+    let until_then = samples.iter().take_while(|(t, _)| *t <= last);
+    (last, until_then.map(|(_, a)| a - g).collect())
+}
+
 /// Place and value of the least of `sign` ÿ1 among the samples where `near` holds, refined between their neighbours.
 fn extremum(
     motion: &mut Motion,
@@ -198,59 +210,15 @@ fn extremum(
     sign: f64,
     near: impl Fn(f64) -> bool,
 ) -> Result<(f64, f64), Failure> {
-    let least = samples
-        .iter()
-        .enumerate()
-        .filter(|(_, (t, _))| near(*t))
-        .min_by(|(_, a), (_, b)| (sign * a.1).total_cmp(&(sign * b.1)))
-        .map(|(index, _)| index)
+    let near = (0..samples.len()).filter(|k| near(samples[*k].0));
+    let least = near
+        .min_by(|a, b| (sign * samples[*a].1).total_cmp(&(sign * samples[*b].1)))
         .ok_or_else(|| Failure::Failed("no sample lies about the turn".to_owned()))?;
     let (from, to) = (
         samples[least.saturating_sub(1)].0,
         samples[(least + 1).min(samples.len() - 1)].0,
     );
     measure::minimise(|t| Ok(sign * motion.acceleration(t)?[TIP_Y]), from, to)
-}
-
-/// How ÿ1 exceeds g before the turn.
-struct AboveG {
-    until: f64,
-    mean: f64,
-    part: f64,
-}
-
-impl AboveG {
-    fn of(samples: &[(f64, f64)], g: f64, t_max: f64) -> Self {
-        let until = samples
-            .iter()
-            .filter(|(t, a)| *t <= t_max && *a > g)
-            .map(|(t, _)| *t)
-            .fold(0.0, f64::max);
-        let inside: Vec<f64> = samples
-            .iter()
-            .filter(|(t, _)| *t <= until)
-            .map(|(_, a)| a - g)
-            .collect();
-        let count = inside.len().max(1) as f64;
-        AboveG {
-            until,
-            mean: inside.iter().sum::<f64>() / count,
-            part: inside.iter().filter(|a| **a > 0.0).count() as f64 / count,
-        }
-    }
-}
-
-fn printed(x0: f64) -> Result<Printed, Failure> {
-    TABLE_1
-        .iter()
-        .find(|row| row.x0 == x0)
-        .map(|row| Printed {
-            h_max: row.h_max,
-            t_max: row.t_max,
-            free_fall: row.free_fall,
-            figure: row.figure,
-        })
-        .ok_or_else(|| Failure::Failed(format!("Table 1 has no x0 = {x0}")))
 }
 
 /// The chain from the support to the tip.

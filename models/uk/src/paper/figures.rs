@@ -1,21 +1,16 @@
 //! The figures.
 
-use std::collections::BTreeMap;
+use std::iter::once;
 
 use uktool::failure::Failure;
 use uktool::html::fixed;
-use uktool::plot::{COLOURS, Chart, Legend, RGBColor, Series, round_range};
+use uktool::plot::{COLOURS, Chart, Legend, Place, RGBColor, Series, round_range};
 
 use super::chain::Chain;
 use super::fish::{self, Fish};
 use super::published::GRAVITY;
 
-/// File names without ending, and the text of the SVG.
-pub(super) type Figures = BTreeMap<String, String>;
-
 type Curve = Vec<(f64, f64)>;
-/// One of the curves of a fish.
-type Pick = fn(&Fish) -> &Curve;
 /// The name of a fish in a legend.
 type Label = fn(&Fish) -> String;
 
@@ -26,16 +21,24 @@ const WHOLE_RUN: (f64, f64) = (0.0, 10.0);
 /// What the paper's figures of the fish show settles in this time, s; it turns over later.
 const FISH_TIME: f64 = 5.0;
 const TIME: &str = "time t (s)";
-const SPEED: &str = "forward velocity −ẋ1 (m/s)";
-const ACCELERATION: &str = "acceleration ẍ1 (m/s²)";
-const SWING: &str = "swing angle θ1 (°)";
 const TIP: &str = "tip acceleration ÿ1 (m/s²)";
 
-/// All figures.
-///
-/// # Errors
-/// [`Failure::Failed`] if one cannot be drawn.
-pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure> {
+/// A curve of each fish, with the label of its axis, and the place of the legend.
+type Quantity = (&'static str, fn(&Fish) -> &Curve, Place);
+const SPEED: Quantity = (
+    "forward velocity −ẋ1 (m/s)",
+    |f| &f.speed,
+    Place::LowerRight,
+);
+const ACCELERATION: Quantity = (
+    "acceleration ẍ1 (m/s²)",
+    |f| &f.acceleration,
+    Place::LowerMiddle,
+);
+const SWING: Quantity = ("swing angle θ1 (°)", |f| &f.swing, Place::UpperLeft);
+
+/// All figures: file names without ending, and the text of the SVG.
+pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Vec<(String, String)>, Failure> {
     let mut charts: Vec<(String, Chart)> = Vec::new();
     if let Some(first) = chains.first() {
         charts.push(("chain-falling".to_owned(), falling(first)));
@@ -48,31 +51,36 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
     charts.push(("chain-lead".to_owned(), lead(chains)));
     charts.push(("chain-fall".to_owned(), fall(chains)));
     charts.extend(by_amplitude(fishes));
-    for (k, (name, label)) in SWEEPS.iter().enumerate() {
-        let mut add = |kind: &str, label_of_y, curve: Pick, legend| {
-            let curves = sweep_curves(fishes, k, curve, *label);
-            let chart = chart(label_of_y, (0.0, FISH_TIME), curves, legend);
+    for (k, (name, _)) in SWEEPS.iter().enumerate() {
+        let mut add = |kind: &str, quantity: Quantity| {
+            let curves = sweep_curves(fishes, k, quantity.1);
+            let chart = chart(quantity.0, (0.0, FISH_TIME), curves, quantity.2);
             charts.push((format!("fish-{name}-{kind}"), chart));
         };
-        add("speed", SPEED, |f| &f.speed, Legend::LowerRight);
+        add("speed", SPEED);
         // Those of the amplitude are Figs. 13-16, in one range.
         if k > 0 {
-            add(
-                "acceleration",
-                ACCELERATION,
-                |f| &f.acceleration,
-                Legend::LowerMiddle,
-            );
+            add("acceleration", ACCELERATION);
         }
-        add("swing", SWING, |f| &f.swing, Legend::UpperLeft);
+        add("swing", SWING);
     }
     // The instability that the paper does not mention.
     let across = horizontal("across (90°)", 90.0, WHOLE_RUN);
-    let turning = whole_run(fishes, SWING, across, |f| &f.swing, Legend::UpperLeft);
-    charts.push(("fish-turning".to_owned(), turning));
     let zero = horizontal("", 0.0, WHOLE_RUN);
-    let speed = whole_run(fishes, SPEED, zero, |f| &f.speed, Legend::LowerRight);
-    charts.push(("fish-turning-speed".to_owned(), speed));
+    for (name, level, (label, curve, place)) in [
+        ("fish-turning", across, SWING),
+        ("fish-turning-speed", zero, SPEED),
+    ] {
+        let series = once(level).chain(sweep_curves(fishes, 0, curve));
+        let chart = chart(label, WHOLE_RUN, series, place);
+        charts.push((
+            name.to_owned(),
+            Chart {
+                size: WHOLE,
+                ..chart
+            },
+        ));
+    }
     charts
         .into_iter()
         .map(|(name, chart)| Ok((name, chart.svg()?)))
@@ -80,18 +88,21 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
 }
 
 /// A chart over time whose vertical range holds all of its curves.
-fn chart(y_label: &str, x: (f64, f64), curves: Vec<Series>, legend: Legend) -> Chart {
-    let series = curves.into_iter().map(|s| cut(s, x)).collect();
+fn chart(
+    y_label: &str,
+    x: (f64, f64),
+    series: impl IntoIterator<Item = Series>,
+    place: Place,
+) -> Chart {
+    let mut series: Vec<Series> = series.into_iter().collect();
+    // What lies outside of the horizontal range would still be written to the file.
+    for curve in &mut series {
+        curve.points.retain(|p| (x.0..=x.1).contains(&p.0));
+    }
     Chart {
-        legend,
+        legend: Legend::Within(place),
         ..Chart::new(TIME, y_label, x, series)
     }
-}
-
-/// The points within the horizontal range: what lies outside would still be written to the file.
-fn cut(mut series: Series, (from, to): (f64, f64)) -> Series {
-    series.points.retain(|(x, _)| (from..=to).contains(x));
-    series
 }
 
 /// The chain at several times, both axes of one scale.
@@ -99,23 +110,16 @@ fn falling(chain: &Chain) -> Chart {
     let last = chain.snapshots.len().saturating_sub(1);
     let mut series = vec![Series::reference("path of the tip", chain.path.clone())];
     for (k, (t, points)) in chain.snapshots.iter().enumerate() {
-        let turn = k == last;
+        let (colour, label) = if k == last {
+            (COLOURS[1], format!("t = {} s: the turn", fixed(*t, 3)))
+        } else {
+            let part = k as f64 / last.max(1) as f64;
+            (shade(part), format!("t = {} s", fixed(*t, 1)))
+        };
         series.push(Series {
-            colour: if turn {
-                COLOURS[1]
-            } else {
-                shade(k as f64 / last.max(1) as f64)
-            },
+            colour,
             dots: 2,
-            ..Series::new(
-                if turn {
-                    format!("t = {} s: the turn", fixed(*t, 3))
-                } else {
-                    format!("t = {} s", fixed(*t, 1))
-                },
-                0,
-                points.clone(),
-            )
+            ..Series::new(label, 0, points.clone())
         });
     }
     // The legend stands inside of the first U, with some room above.
@@ -126,7 +130,7 @@ fn falling(chain: &Chain) -> Chart {
     let height = frame_y + (f64::from(width - frame_x) * (depth + above) / (x.1 - x.0)) as u32;
     Chart {
         y: (depth, -above),
-        legend: Legend::UpperMiddle,
+        legend: Legend::Within(Place::UpperMiddle),
         size: (width, height),
         ..Chart::new("x (m)", "y, downwards (m)", x, series)
     }
@@ -145,19 +149,14 @@ fn horizontal(label: &str, value: f64, (from, to): (f64, f64)) -> Series {
 /// Figs. 2-6, all in the range of the deepest, so that they compare.
 fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
     let x = (0.0, 2.0);
-    let y = round_range(
-        chains
-            .iter()
-            .flat_map(|c| c.acceleration.iter().map(|p| p.1)),
-    );
+    let points = chains.iter().flat_map(|c| &c.acceleration);
+    let y = round_range(points.map(|p| p.1));
     chains
         .iter()
         .map(|c| {
-            let series = vec![
-                horizontal("g", GRAVITY, x),
-                Series::new(format!("x0 = {} m", c.row.x0), 0, c.acceleration.clone()),
-            ];
-            let chart = chart(TIP, x, series, Legend::LowerLeft);
+            let label = format!("x0 = {} m", c.row.x0);
+            let own = Series::new(label, 0, c.acceleration.clone());
+            let chart = chart(TIP, x, [horizontal("g", GRAVITY, x), own], Place::LowerLeft);
             (format!("fig{}", c.row.paper.figure), Chart { y, ..chart })
         })
         .collect()
@@ -165,78 +164,50 @@ fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
 
 fn tip_accelerations_together(chains: &[Chain]) -> Chart {
     let x = (0.0, 1.9);
-    let mut series = vec![horizontal("g", GRAVITY, x)];
-    series.extend(
-        chains
-            .iter()
-            .enumerate()
-            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, c.acceleration.clone())),
-    );
+    let curves = of_each(chains, |c| c.acceleration.clone());
+    let series = once(horizontal("g", GRAVITY, x)).chain(curves);
     // What the paper speaks of, accelerations above g, would be a thin line next to the peaks.
-    let chart = chart(TIP, x, series, Legend::LowerLeft);
-    Chart {
-        y: (-30.0, 30.0),
-        series: chart
-            .series
-            .into_iter()
-            .map(|s| clip(s, (-30.0, 30.0)))
-            .collect(),
-        ..chart
+    let mut chart = chart(TIP, x, series, Place::LowerLeft);
+    chart.y = (-30.0, 30.0);
+    // Each up to where it first leaves the vertical range.
+    for Series { points, .. } in &mut chart.series {
+        let outside = points.iter().position(|(_, y)| y.abs() > 30.0);
+        points.truncate(outside.unwrap_or(points.len()));
     }
-}
-
-/// The curve up to where it first leaves the vertical range.
-fn clip(mut series: Series, (low, high): (f64, f64)) -> Series {
-    let end = series
-        .points
-        .iter()
-        .position(|(_, y)| !(low..=high).contains(y))
-        .unwrap_or(series.points.len());
-    series.points.truncate(end);
-    series
+    chart
 }
 
 /// Fall of the tip beyond that of a free body, up to the turn.
 fn lead(chains: &[Chain]) -> Chart {
     let x = (0.0, 1.9);
-    let mut series = vec![horizontal("free fall", 0.0, x)];
-    series.extend(chains.iter().enumerate().map(|(k, c)| {
-        let points = before_turn(c)
-            .map(|(t, y)| (t, y - 0.5 * GRAVITY * t * t))
-            .collect();
-        Series::new(format!("x0 = {} m", c.row.x0), k, points)
-    }));
+    let lead = |(t, y)| (t, y - 0.5 * GRAVITY * t * t);
+    let curves = of_each(chains, |c| before_turn(c).map(lead).collect());
+    let series = once(horizontal("free fall", 0.0, x)).chain(curves);
     chart(
         "fall of the tip less ½ g t² (m)",
         x,
         series,
-        Legend::UpperLeft,
+        Place::UpperLeft,
     )
 }
 
 fn fall(chains: &[Chain]) -> Chart {
-    let x = (0.0, 1.9);
-    let free = (0..=190)
-        .map(|k| f64::from(k) * 0.01)
-        .map(|t| (t, 0.5 * GRAVITY * t * t))
-        .collect();
-    let mut series = vec![Series::reference("free fall, ½ g t²", free)];
-    series.extend(
-        chains
-            .iter()
-            .enumerate()
-            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, before_turn(c).collect())),
-    );
-    let chart = chart(
-        "fall of the tip y1, downwards (m)",
-        x,
-        series,
-        Legend::LowerLeft,
-    );
+    let times = (0..=190).map(|k| f64::from(k) * 0.01);
+    let free = times.map(|t| (t, 0.5 * GRAVITY * t * t)).collect();
+    let curves = of_each(chains, |c| before_turn(c).collect());
+    let series = once(Series::reference("free fall, ½ g t²", free)).chain(curves);
+    let label = "fall of the tip y1, downwards (m)";
+    let chart = chart(label, (0.0, 1.9), series, Place::LowerLeft);
     Chart {
         y: (chart.y.1, chart.y.0),
         ..chart
     }
+}
+
+/// A curve of each chain, labelled with its initial separation.
+fn of_each(chains: &[Chain], curve: impl Fn(&Chain) -> Curve) -> impl Iterator<Item = Series> {
+    let chains = chains.iter().enumerate();
+    chains.map(move |(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, curve(c)))
 }
 
 fn before_turn(chain: &Chain) -> impl Iterator<Item = (f64, f64)> {
@@ -252,12 +223,10 @@ const SWEEPS: [(&str, Label); 3] = [
     ("phase", |f| format!("φ = {}°", f.row.phi_deg)),
 ];
 
-fn sweep_curves(fishes: &[Fish], k: usize, curve: Pick, label: Label) -> Vec<Series> {
-    fish::sweep(fishes, k, |f| &f.row)
-        .into_iter()
-        .enumerate()
-        .map(|(i, f)| Series::new(label(f), i, curve(f).clone()))
-        .collect()
+fn sweep_curves(fishes: &[Fish], k: usize, curve: fn(&Fish) -> &Curve) -> Vec<Series> {
+    let fishes = fish::sweep(fishes, k, |f| &f.row).into_iter().enumerate();
+    let series = fishes.map(|(i, f)| Series::new(SWEEPS[k].1(f), i, curve(f).clone()));
+    series.collect()
 }
 
 /// Figs. 9-12 (forward velocity) and 13-16 (acceleration), each group in one range.
@@ -265,31 +234,18 @@ fn by_amplitude(fishes: &[Fish]) -> Vec<(String, Chart)> {
     let x = (0.0, FISH_TIME);
     let chosen = fish::sweep(fishes, 0, |f| &f.row);
     let mut charts = Vec::new();
-    let curves: [(usize, &str, Pick); 2] = [
-        (9, SPEED, |f| &f.speed),
-        (13, ACCELERATION, |f| &f.acceleration),
-    ];
-    for (figure, label, curve) in curves {
-        let y = round_range(
-            chosen
-                .iter()
-                .flat_map(|f| curve(f).iter().filter(|p| p.0 <= x.1).map(|p| p.1)),
-        );
+    for (figure, (label, curve, place)) in [(9, SPEED), (13, ACCELERATION)] {
+        let points = chosen.iter().flat_map(|f| curve(f));
+        let y = round_range(points.filter(|p| p.0 <= x.1).map(|p| p.1));
         for (i, f) in chosen.iter().enumerate() {
-            let series = vec![horizontal("", 0.0, x), Series::new("", 0, curve(f).clone())];
-            let chart = chart(label, x, series, Legend::None);
-            charts.push((format!("fig{}", figure + i), Chart { y, ..chart }));
+            let series = [horizontal("", 0.0, x), Series::new("", 0, curve(f).clone())];
+            let chart = Chart {
+                y,
+                legend: Legend::None,
+                ..chart(label, x, series, place.clone())
+            };
+            charts.push((format!("fig{}", figure + i), chart));
         }
     }
     charts
-}
-
-/// A curve of each amplitude over the whole run.
-fn whole_run(fishes: &[Fish], y_label: &str, level: Series, curve: Pick, legend: Legend) -> Chart {
-    let mut series = vec![level];
-    series.extend(sweep_curves(fishes, 0, curve, SWEEPS[0].1));
-    Chart {
-        size: WHOLE,
-        ..chart(y_label, WHOLE_RUN, series, legend)
-    }
 }

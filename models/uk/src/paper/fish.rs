@@ -4,7 +4,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use models::{FishRobot, Model, StartOptions};
 use serde::Serialize;
-use uktool::animate;
 use uktool::command;
 use uktool::failure::Failure;
 use uktool::scene::Start;
@@ -139,29 +138,19 @@ pub(super) const FILM: &str = "fish-swimming.html";
 /// The fish with the least and the greatest amplitude of its fin side by side, up to the end of the window of the mean speed.
 pub(super) fn film() -> Result<String, Failure> {
     let [first, .., last] = AMPLITUDES;
-    let rows = [first, last].map(|a3| (format!("A3 = {a3}"), a3));
-    let runs = rows.each_ref().map(|(label, a3)| {
-        let gait = Gait { a3: *a3, ..BASE };
-        let settings = gait.parameters();
+    let runs = [first, last].map(|a3| {
+        let settings = Gait { a3, ..BASE }.parameters();
         let settings = settings.map(|(name, value)| (name.to_owned(), value.into()));
         let start = Start {
             settings: settings.to_vec(),
             ..Start::default()
         };
-        (label.as_str(), start, motion::played(WINDOW.1))
+        (format!("A3 = {a3}"), start)
     });
-    let models = models::entries();
-    animate::page_of(
-        command::find(&models, FishRobot::ID)?,
-        &runs,
-        motion::PICTURES,
-    )
+    motion::film(FishRobot::ID, runs, WINDOW.1)
 }
 
 /// Runs the fish with `gait`.
-///
-/// # Errors
-/// [`Failure::Failed`] if the integration fails.
 pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     let name = format!("fish-a{}-w{}pi-phi{}", gait.a3, gait.omega_pi, gait.phi_deg);
     let omega = gait.omega_pi * PI;

@@ -1,14 +1,13 @@
 //! Numbers taken from curves: minima, and the oscillation in a drifting signal.
 
+use uktool::numbers::extremes;
+
 /// (√5 − 1)/2.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Place and value of the least of `f` between `a` and `b`, by golden-section search; `f` has one minimum there.
 ///
 /// The bracket shrinks to √ε of its place: closer than that a smooth f differs by rounding only.
-///
-/// # Errors
-/// What `f` reports.
 pub(super) fn minimise<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     mut a: f64,
@@ -115,9 +114,7 @@ fn solve(mut rows: [[f64; TERMS + 1]; TERMS]) -> Option<[f64; TERMS]> {
 
 /// Largest minus smallest value.
 pub(super) fn spread(values: impl Iterator<Item = f64>) -> f64 {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-        (l.min(v), h.max(v))
-    });
+    let (low, high) = extremes(values);
     high - low
 }
 

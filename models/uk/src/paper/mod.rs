@@ -9,12 +9,12 @@ mod motion;
 mod page;
 mod published;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use clap::Args;
-use models::uchain::TABLE_1;
+use models::uchain::{TABLE_1, TableRow};
 use rayon::prelude::*;
 use serde::Serialize;
 use uktool::command;
@@ -69,18 +69,6 @@ const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, r
 const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and \
     mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
 
-/// One integration to do.
-#[derive(Debug, Clone, Copy)]
-enum Job {
-    Chain(&'static str, f64),
-    Fish(Gait),
-}
-
-enum Outcome {
-    Chain(Chain),
-    Fish(Fish),
-}
-
 /// All runs.
 struct Results {
     /// Table 1's, in order of x0.
@@ -122,7 +110,7 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     directory.write(fish::FILM, fish::film()?)?;
     directory.json("paper.json", &paper)?;
     directory.write("index.html", page::html(&paper))?;
-    report(&args.out, &paper)
+    report(&directory, &paper)
 }
 
 impl Results {
@@ -135,46 +123,44 @@ impl Results {
 }
 
 fn compute() -> Result<Results, Failure> {
-    let table = TABLE_1
-        .iter()
-        .map(|row| Job::Chain(chain::PAPER_START, row.x0));
-    let jobs: Vec<Job> = [Job::Chain(chain::OTHER_START, TABLE_1[0].x0)]
-        .into_iter()
-        .chain(table)
-        .chain(fish::gaits().into_iter().map(Job::Fish))
-        .collect();
+    let mut starts = vec![(chain::OTHER_START, &TABLE_1[0])];
+    starts.extend(TABLE_1.iter().map(|row| (chain::PAPER_START, row)));
+    let gaits = fish::gaits();
     let progress = Progress::new("paper");
-    let (done, all) = (AtomicUsize::new(0), jobs.len());
-    let run = |job: &Job| {
-        let outcome = match job {
-            Job::Chain(start, x0) => chain::compute(start, *x0).map(Outcome::Chain),
-            Job::Fish(gait) => fish::compute(*gait).map(Outcome::Fish),
-        };
+    let (done, all) = (AtomicUsize::new(0), starts.len() + gaits.len());
+    let note = || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.set(done as f64 / all as f64, || format!("{done} of {all} runs"));
-        outcome
     };
-    let outcomes: Result<Vec<Outcome>, Failure> =
-        jobs.par_iter().with_max_len(1).map(run).collect();
+    let chain = |(start, row): &(&str, &TableRow)| chain::compute(start, row).inspect(|_| note());
+    let fish = |gait: &Gait| fish::compute(*gait).inspect(|_| note());
+    let (chains, fishes) = rayon::join(
+        || {
+            starts
+                .par_iter()
+                .with_max_len(1)
+                .map(chain)
+                .collect::<Result<_, _>>()
+        },
+        || {
+            gaits
+                .par_iter()
+                .with_max_len(1)
+                .map(fish)
+                .collect::<Result<_, _>>()
+        },
+    );
     progress.finish();
-    let (mut chains, mut fishes) = (Vec::new(), Vec::new());
-    // In the order of the jobs: the catenary comes first.
-    for outcome in outcomes? {
-        match outcome {
-            Outcome::Chain(chain) => chains.push(chain),
-            Outcome::Fish(fish) => fishes.push(fish),
-        }
-    }
-    let catenary = chains.remove(0);
+    let (mut chains, fishes): (Vec<Chain>, Vec<Fish>) = (chains?, fishes?);
     Ok(Results {
+        catenary: chains.remove(0),
         chains,
-        catenary,
         fishes,
     })
 }
 
 /// What a person at the terminal wants to know at once.
-fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
+fn report(directory: &Directory, paper: &Paper) -> Result<(), Failure> {
     let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
     output::to_stdout(|w| {
         writeln!(
@@ -211,12 +197,7 @@ fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
             count(Verdict::Nearly),
             count(Verdict::Fails)
         )?;
-        writeln!(
-            w,
-            "{} runs in {:.1} s; the report is {}",
-            paper.runs.len(),
-            paper.seconds,
-            out.join("index.html").display()
-        )
+        let runs = format!("{} runs", paper.runs.len());
+        writeln!(w, "{}", directory.told(&runs, paper.seconds))
     })
 }

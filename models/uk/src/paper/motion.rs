@@ -8,6 +8,8 @@ use ukcore::{
 };
 use uktool::drift::Drift;
 use uktool::failure::Failure;
+use uktool::scene::Start;
+use uktool::{animate, command};
 
 use super::TOLERANCE;
 
@@ -15,17 +17,19 @@ use super::TOLERANCE;
 const SAMPLES: f64 = 0.01;
 
 /// Pictures of a motion that is played.
-pub(super) const PICTURES: u32 = 301;
+const PICTURES: u32 = 301;
 
-/// How a motion is computed that is played up to `until`, s.
-pub(super) fn played(until: f64) -> uktool::motion::Motion {
-    uktool::motion::Motion {
+/// A page that plays motions of the model `id` up to `until`, s, side by side under their labels.
+pub(super) fn film(id: &str, runs: [(String, Start); 2], until: f64) -> Result<String, Failure> {
+    let motion = uktool::motion::Motion {
         until: Some(until),
         tol: TOLERANCE,
         method: Method::Dop853,
         max_steps: 1_000_000,
         stabilise: Stabilisation::Projection,
-    }
+    };
+    let models = models::entries();
+    animate::page_of(command::find(&models, id)?, runs, &motion, PICTURES)
 }
 
 /// A computed motion, and its accelerations.
@@ -41,17 +45,12 @@ pub(super) struct RunRow {
     pub(super) name: String,
     /// End, s.
     pub(super) until: f64,
-    /// Accepted steps.
     pub(super) steps: usize,
-    /// Rejected steps.
     pub(super) rejected: usize,
-    /// Evaluations of the accelerations.
     pub(super) evaluations: usize,
-    /// Projections onto the constraints.
     pub(super) projections: usize,
     /// Evaluations that fell back to a more general formula.
     pub(super) fallbacks: usize,
-    /// Largest residuals, and drift of the energy.
     #[serde(flatten)]
     pub(super) drift: Drift,
     /// Wall time, s.
@@ -60,9 +59,6 @@ pub(super) struct RunRow {
 
 impl Motion {
     /// Integrates `mechanism` from `start` to `until`, with an event.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] naming the run.
     pub(super) fn new(
         name: &str,
         mechanism: &Prepared,
@@ -99,23 +95,16 @@ impl Motion {
         Ok((Motion { solver, trajectory }, run))
     }
 
-    /// The trajectory.
     pub(super) fn trajectory(&self) -> &Trajectory {
         &self.trajectory
     }
 
     /// The state at `t`.
-    ///
-    /// # Errors
-    /// What [`Trajectory::at`] reports.
     pub(super) fn state(&self, t: f64) -> Result<State, Failure> {
         Ok(self.trajectory.at(t)?)
     }
 
     /// q̈ at `t`.
-    ///
-    /// # Errors
-    /// What [`Trajectory::at`] and [`Solver::acceleration`] report.
     pub(super) fn acceleration(&mut self, t: f64) -> Result<Vec<f64>, Failure> {
         let state = self.state(t)?;
         let mut out = vec![0.0; state.q.len()];
@@ -125,9 +114,6 @@ impl Motion {
     }
 
     /// The samples as CSV.
-    ///
-    /// # Errors
-    /// [`Failure::Failed`] if they cannot be formatted.
     pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
         let mut text = Vec::new();
         let written = self.trajectory.write_csv(&mut text);

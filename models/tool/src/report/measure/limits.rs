@@ -17,7 +17,6 @@ const NUDGE: f64 = 1e-8;
 const DIRECTIONS: usize = 8;
 
 impl Subject<'_> {
-    /// Measures them.
     pub(super) fn limits(&self) -> Limits {
         let options = |formula, factor: f64| SolverOptions {
             formula,
@@ -40,8 +39,8 @@ impl Subject<'_> {
         let n = self.mechanism.spec().n();
         let mut solvers = [one, other].map(|options| Solver::new(self.mechanism, options));
         let mut largest: f64 = 0.0;
-        for (k, &t) in self.truth.times.iter().enumerate() {
-            let (q, v) = self.truth.state(k).split_at(n);
+        for (&t, state) in self.truth.times.iter().zip(&self.truth.states) {
+            let (q, v) = state.split_at(n);
             let mut both = [vec![0.0; n], vec![0.0; n]];
             for (solver, out) in solvers.iter_mut().zip(&mut both) {
                 solver.acceleration(t, q, v, out).ok()?;

@@ -49,23 +49,16 @@ impl Subject<'_> {
             let end = self.start.t + part * span;
             self.watched(self.simulation(variant, knob), end)
         };
-        let mut run = LongRun {
+        let runs = to(EARLY).and_then(|early| Ok((early.0, to(1.0)?)));
+        let known = runs.as_ref().ok();
+        LongRun {
             variant: variant.name.to_owned(),
             knob,
             span,
-            seconds: None,
-            early: None,
-            late: None,
-            failure: None,
-        };
-        match (to(EARLY), to(1.0)) {
-            (Ok((early, _)), Ok((late, seconds))) => {
-                run.seconds = Some(seconds);
-                run.early = Some(early.energy_drift());
-                run.late = Some(late.energy_drift());
-            }
-            (Err(trouble), _) | (_, Err(trouble)) => run.failure = Some(trouble.to_string()),
+            seconds: known.map(|(_, (_, seconds))| *seconds),
+            early: known.map(|(early, _)| early.energy_drift()),
+            late: known.map(|(_, (late, _))| late.energy_drift()),
+            failure: runs.err().map(|trouble| trouble.to_string()),
         }
-        run
     }
 }

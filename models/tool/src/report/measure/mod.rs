@@ -6,7 +6,6 @@ mod long;
 use std::ops::ControlFlow;
 
 use ukcore::manifold::Projector;
-use ukcore::model::Reference;
 use ukcore::simulate::Ending;
 use ukcore::solver::Formula;
 use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
@@ -14,12 +13,11 @@ use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajecto
 use crate::drift::Drift;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::scene::Ready;
 
-use super::clock;
 use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
-use super::truth::{Truth, stacked};
+use super::truth::{Truth, stacked, states};
 use super::variants::{VARIANTS, Variant};
+use super::{Job, clock};
 
 /// No run may take longer, s; a combination ends with the setting at which one would.
 const LONGEST_RUN: f64 = 2.0;
@@ -44,29 +42,29 @@ struct Subject<'a> {
     interrupt: Interrupt,
 }
 
-/// A run to be timed, by its place in the curves.
-struct Timing {
-    curve: usize,
-    point: usize,
+/// A run to be timed, so many times in a row.
+struct Timing<'a> {
+    variant: &'a Variant,
+    knob: f64,
+    batch: f64,
+    figures: &'a mut Figures,
     seconds: Vec<f64>,
 }
 
-/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings
-/// and times each of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
+/// Measures a motion; a quick look runs few settings and times each of them once. `done` hears the part that is done. What was measured
+/// before an interrupt is kept.
 ///
 /// # Errors
 /// If the start has no solution or the motion no reference.
 pub(super) fn study(
-    name: &str,
-    ready: &Ready<'_>,
-    end: f64,
-    reference: Option<&Reference>,
+    job: &Job<'_>,
     quick: bool,
     interrupt: Interrupt,
     done: &dyn Fn(f64),
 ) -> Result<Study, Failure> {
+    let ready = job.start.ready(job.entry)?;
     let (mechanism, start) = (&ready.mechanism, &ready.state);
-    let truth = Truth::of(mechanism, start, end, reference)?;
+    let truth = Truth::of(mechanism, start, job.end, job.reference.as_ref())?;
     let mut solver = Solver::new(mechanism, SolverOptions::default());
     let subject = Subject {
         mechanism,
@@ -83,7 +81,7 @@ pub(super) fn study(
         long = subject.long_runs(&curves);
     }
     Ok(Study {
-        name: name.to_owned(),
+        name: job.name.clone(),
         model: ready.entry.id.clone(),
         summary: ready.entry.summary.to_owned(),
         end: subject.truth.end(),
@@ -127,14 +125,10 @@ impl Subject<'_> {
                     break;
                 }
                 let too_long = matches!(result, Err(Trouble::TooLong));
-                let (figures, failure) = match result {
-                    Ok(figures) => (Some(figures), None),
-                    Err(trouble) => (None, Some(trouble.to_string())),
-                };
                 curve.points.push(Point {
                     knob,
-                    figures,
-                    failure,
+                    figures: result.as_ref().ok().copied(),
+                    failure: result.err().map(|trouble| trouble.to_string()),
                 });
                 if too_long {
                     break;
@@ -160,12 +154,17 @@ impl Subject<'_> {
     /// Repeats the runs that succeeded, one after the other round by round, so that what disturbs the machine for a while meets all alike.
     fn repeat(&self, curves: &mut [Curve], done: &dyn Fn(f64)) {
         let mut timings = Vec::new();
-        for (curve, c) in curves.iter().enumerate() {
-            for (point, p) in c.points.iter().enumerate() {
-                if p.figures.is_some_and(|f| f.seconds < LONG) {
+        for curve in curves {
+            let variant = super::variants::named(&curve.variant);
+            for Point { knob, figures, .. } in &mut curve.points {
+                if let (Some(variant), Some(figures)) = (variant, figures)
+                    && figures.seconds < LONG
+                {
                     timings.push(Timing {
-                        curve,
-                        point,
+                        variant,
+                        knob: *knob,
+                        batch: (BATCH / figures.seconds).ceil().clamp(1.0, 1000.0),
+                        figures,
                         seconds: Vec::new(),
                     });
                 }
@@ -179,21 +178,13 @@ impl Subject<'_> {
                 if self.interrupt.is_set() || (round >= LEAST && used > share) {
                     continue;
                 }
-                let curve = &curves[timing.curve];
-                let point = &curve.points[timing.point];
-                let (Some(variant), Some(first)) =
-                    (super::variants::named(&curve.variant), point.figures)
-                else {
-                    continue;
-                };
-                let batch = (BATCH / first.seconds).ceil().clamp(1.0, 1000.0);
                 let ((), seconds) = clock::timed(|| {
-                    for _ in 0..batch as usize {
-                        let run = self.bare(variant, point.knob);
+                    for _ in 0..timing.batch as usize {
+                        let run = self.bare(timing.variant, timing.knob);
                         std::hint::black_box(&run);
                     }
                 });
-                timing.seconds.push(seconds / batch);
+                timing.seconds.push(seconds / timing.batch);
                 done((round as f64 + k as f64 / all as f64) / MOST as f64);
             }
         }
@@ -203,11 +194,9 @@ impl Subject<'_> {
                 let last = timing.seconds.len().saturating_sub(1);
                 timing.seconds[(part * last as f64).round() as usize]
             };
-            if let Some(figures) = &mut curves[timing.curve].points[timing.point].figures {
-                figures.seconds = quantile(0.5);
-                figures.quartiles = (quantile(0.25), quantile(0.75));
-                figures.repeats = timing.seconds.len();
-            }
+            timing.figures.seconds = quantile(0.5);
+            timing.figures.quartiles = (quantile(0.25), quantile(0.75));
+            timing.figures.repeats = timing.seconds.len();
         }
     }
 
@@ -236,10 +225,10 @@ impl Subject<'_> {
                     // The clock is asked now and then: it takes as long as some steps.
                     let asked = steps.is_multiple_of(16);
                     let long = || (clock::now() - start).as_secs_f64() > LONGEST_RUN;
-                    if interrupt.is_set() || (asked && long()) {
+                    if asked && long() {
                         return ControlFlow::Break(());
                     }
-                    ControlFlow::Continue(())
+                    interrupt.flow()
                 })
                 .until(end)
         });
@@ -256,14 +245,7 @@ impl Subject<'_> {
         let (run, seconds) = self.watched(self.simulation(variant, knob), truth.end())?;
         let times = truth.times.clone();
         let (sampled, _) = self.watched(self.simulation(variant, knob).at(times), truth.end())?;
-        let mut error_along: f64 = 0.0;
-        for (k, sample) in sampled.samples().enumerate() {
-            error_along = error_along.max(truth.errors(k, &stacked(&sample.to_state())).scaled);
-        }
-        let Some(end) = run.last() else {
-            return Err(Trouble::NoNumber);
-        };
-        let end = end.to_state();
+        let end = run.last().ok_or(Trouble::NoNumber)?.to_state();
         // From far off the constraints the way back may not be found.
         let nearest = self.nearest(&end).ok().map(|nearest| stacked(&nearest));
         let (last, end) = (truth.last(), stacked(&end));
@@ -283,20 +265,15 @@ impl Subject<'_> {
             fallbacks: work.fallbacks,
             error: error.scaled,
             error_in_units: error.absolute,
-            error_along: error_along.max(error.scaled),
+            error_along: truth.largest(&states(&sampled)).max(error.scaled),
             off: nearest.as_ref().map(|n| truth.distance(&end, n).scaled),
             within: nearest.as_ref().map(|n| truth.errors(last, n).scaled),
             drift,
         };
-        let numbers = [
-            figures.error,
-            drift.position_residual,
-            drift.velocity_residual,
-        ];
-        if numbers.iter().all(|x| x.is_finite()) {
-            Ok(figures)
-        } else {
-            Err(Trouble::NoNumber)
+        let residuals = [drift.position_residual, drift.velocity_residual];
+        match figures.error.is_finite() && residuals.iter().all(|x| x.is_finite()) {
+            true => Ok(figures),
+            false => Err(Trouble::NoNumber),
         }
     }
 

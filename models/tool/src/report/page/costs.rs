@@ -12,7 +12,6 @@ use crate::report::verdict::{self, Price};
 /// Goals at which the price of a stabilisation is told.
 const MIDDLE: f64 = 1e-6;
 
-/// What each stabilisation costs.
 pub(super) fn prices(report: &Report) -> Markup {
     let free = report.studies.iter();
     let free: Vec<&Study> = free.filter(|s| s.curve("dop853-none").is_some()).collect();
@@ -52,7 +51,6 @@ fn price_row(study: &Study) -> Vec<Cell> {
     ]
 }
 
-/// Where the errors come from.
 pub(super) fn causes(report: &Report) -> Markup {
     html! {
         (table(

@@ -16,14 +16,8 @@ use super::study::Study;
 use super::variants::Variant;
 use super::verdict::{self, Among, DEFAULT_TOLERANCE, TIE};
 
-/// index.html.
 pub(super) fn html(report: &Report) -> String {
-    let section = |id, link, title, body| Section {
-        id,
-        link,
-        title,
-        body,
-    };
+    let section = Section::new;
     let motions = html! { @for study in &report.studies { (motion::motion(study)) } };
     let page = Page {
         title: "Error against run time",

@@ -9,7 +9,6 @@ use crate::report::charts;
 use crate::report::study::{Figures, Study};
 use crate::report::variants::label;
 
-/// Its part of the page.
 pub(super) fn motion(study: &Study) -> Markup {
     let file = charts::file(study);
     let picture = |kind: &str, caption: &str| {

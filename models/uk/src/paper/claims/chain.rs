@@ -8,7 +8,6 @@ use super::{
     Claim, Verdict, between, column, growing, larger, list, percent, reversed, throughout, up_to,
 };
 
-/// All of them.
 pub(super) fn claims(rows: &[ChainRow]) -> Vec<Claim> {
     let mut claims = table_1(rows);
     claims.extend(falling(rows));

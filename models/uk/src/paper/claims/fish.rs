@@ -18,7 +18,6 @@ const NO_ACCELERATION: f64 = 0.05;
 /// A quantity is called little influenced if it varies by less than this part over a sweep.
 const LITTLE: f64 = 0.25;
 
-/// All of them.
 pub(super) fn claims(rows: &[FishRow]) -> Vec<Claim> {
     let sweeps = [0, 1, 2].map(|k| sweep(rows, k, |r| r).into_iter().cloned().collect());
     let mut claims = speed(&sweeps);

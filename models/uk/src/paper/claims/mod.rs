@@ -31,7 +31,6 @@ const MET: f64 = 0.05;
 const NEAR: f64 = 0.15;
 
 impl Verdict {
-    /// One word.
     pub(super) fn word(self) -> &'static str {
         match self {
             Verdict::Holds => "holds",
@@ -70,7 +69,6 @@ pub(super) struct Claim {
     pub(super) found: String,
     /// The numbers judged.
     pub(super) numbers: Vec<f64>,
-    /// Verdict.
     pub(super) verdict: Verdict,
 }
 

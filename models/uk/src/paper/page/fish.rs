@@ -6,7 +6,6 @@ use uktool::html::{Cell, embedded, figure, figure_of, fixed, joined, table};
 use super::super::fish::{FILM, FishRow, WINDOW, sweep};
 use super::super::{Paper, published};
 
-/// Text, tables and figures.
 pub(super) fn section(paper: &Paper) -> Markup {
     let amplitude = sweep(&paper.fish, 0, |r| r);
     let (from, to) = WINDOW;

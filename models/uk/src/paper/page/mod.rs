@@ -10,14 +10,8 @@ use super::Paper;
 use super::claims::{STANDARD, Verdict};
 use super::motion::RunRow;
 
-/// index.html.
 pub(super) fn html(paper: &Paper) -> String {
-    let section = |id, link, title, body| Section {
-        id,
-        link,
-        title,
-        body,
-    };
+    let section = Section::new;
     let page = Page {
         title: "The falling U-chain and the fish robot, recomputed",
         head: head(paper),
