@@ -78,9 +78,7 @@ impl State {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NonFinite`] (also for parameters of `mech`).
     pub fn check(&self, mech: &Prepared) -> Result<(), Error> {
-        let n = mech.spec().n();
-        diagnose::check_length("q", self.q.len(), n)?;
-        diagnose::check_length("v", self.v.len(), n)?;
+        diagnose::check_lengths(mech, &self.q, &self.v)?;
         diagnose::bad_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
@@ -115,8 +113,7 @@ impl Residuals {
 pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residuals, Error> {
     let mech: Prepared = mechanism.into();
     let spec = mech.spec();
-    diagnose::check_length("q", state.q.len(), spec.n())?;
-    diagnose::check_length("v", state.v.len(), spec.n())?;
+    diagnose::check_lengths(&mech, &state.q, &state.v)?;
     let mut position = vec![0.0; spec.holonomic];
     let mut velocity = vec![0.0; spec.m()];
     mech.residual(state.t, &state.q, &mut position);

@@ -14,7 +14,7 @@ use crate::measure::Measure;
 use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::largest;
+use crate::scan::{largest, or_one};
 use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
@@ -116,8 +116,7 @@ pub(crate) struct Dense {
 impl Dense {
     /// What makes the residuals of the rows comparable. A row of zeros has no scale: 0 = b.
     pub(crate) fn residual_scale(&self) -> Vec<f64> {
-        let scales = self.row_scale.iter();
-        scales.map(|&s| if s > 0.0 { s } else { 1.0 }).collect()
+        self.row_scale.iter().copied().map(or_one).collect()
     }
 
     /// Buffers for the mechanisms of a type.

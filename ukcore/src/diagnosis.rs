@@ -86,7 +86,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     let mut solver = Solver::new(&mech, SolverOptions::default());
     let (rank, rows) = independent(&mut solver, state)?;
     let relations = relations(&rows, rank);
-    let names = |rows: &[usize]| names(spec, rows);
+    let names = |rows: &[usize]| spec.constraint_names(rows);
     let follow: Vec<usize> = relations.iter().map(|r| r.row).collect();
     let mut undetermined: Vec<usize> = relations.iter().flat_map(Relation::rows).collect();
     undetermined.sort_unstable();
@@ -211,14 +211,9 @@ pub(crate) fn redundant(mech: &Prepared, state: &State, rank: usize) -> Vec<Redu
 fn named(spec: &Spec, relations: &[Relation]) -> Vec<Redundant> {
     let named = relations.iter().map(|relation| Redundant {
         name: spec.constraints[relation.row].name.to_owned(),
-        follows_from: names(spec, &relation.from),
+        follows_from: spec.constraint_names(&relation.from),
     });
     named.collect()
-}
-
-fn names(spec: &Spec, rows: &[usize]) -> Vec<String> {
-    let names = rows.iter().map(|i| spec.constraints[*i].name.to_owned());
-    names.collect()
 }
 
 /// The rank of A, as the solver decides it, and its rows, each of length 1 in the mass metric.
@@ -318,12 +313,7 @@ pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Diagnosis {
-            coordinates,
-            constraints,
-            rank,
-            ..
-        } = self;
+        let (rank, constraints) = (self.rank, self.constraints);
         let counted = |count: usize, what: &str| match count {
             1 => format!("1 {what}"),
             _ => format!("{count} {what}s"),
@@ -333,8 +323,8 @@ impl fmt::Display for Diagnosis {
         write!(
             f,
             "{}, {} of rank {rank}: {freedoms} {plural} of freedom",
-            counted(*coordinates, "coordinate"),
-            counted(*constraints, "constraint"),
+            counted(self.coordinates, "coordinate"),
+            counted(constraints, "constraint"),
         )?;
         if self.freedoms_of_position != freedoms {
             write!(f, " ({} of position)", self.freedoms_of_position)?;
@@ -353,7 +343,7 @@ impl fmt::Display for Diagnosis {
         }
         match &self.undetermined[..] {
             [] => write!(f, "\nall reactions are unique")?,
-            rows if rows.len() == *constraints => write!(f, "\nno reaction is unique")?,
+            rows if rows.len() == constraints => write!(f, "\nno reaction is unique")?,
             rows => write!(f, "\nreactions are unique but for {}", quoted(rows))?,
         }
         match self.nearness() {

@@ -78,10 +78,7 @@ pub fn kinematics(
         let reason = format!(
             "has the nonholonomic constraint `{name}`: positions depend on the way on which they are reached; integrate instead"
         );
-        return Err(Error::InvalidSetting {
-            what: "mechanism",
-            reason,
-        });
+        return Err(Error::invalid("mechanism", reason));
     }
     let held = held(spec, hold)?;
     let kept = Held {
@@ -115,14 +112,10 @@ impl Kinematics {
         if self.timed {
             let reason = "is not free where `t` is a drive: velocities are those in time, and the constraints say how fast all moves with it; \
                           leave it out";
-            return Err(Error::InvalidSetting {
-                what: "speed",
-                reason: reason.to_owned(),
-            });
+            return Err(Error::invalid("speed", reason));
         }
         if !speed.is_finite() {
-            let what = vec!["speed".to_owned()];
-            return Err(Error::NonFinite { what });
+            return Err(Error::non_finite("speed"));
         }
         for posture in &mut self.postures {
             posture.state.v.iter_mut().for_each(|v| *v *= speed);

@@ -124,12 +124,6 @@ impl Scalar for Rounded {
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         if a.value <= b.value { then } else { otherwise }
     }
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-    fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        c - self * b
-    }
     fn sin_cos(self) -> (Self, Self) {
         (self.unary(Scalar::sin), self.unary(Scalar::cos))
     }

@@ -83,8 +83,7 @@ impl Chosen {
                 return Err(Error::unknown_name("start option", name, &mut known));
             }
             if !value.is_finite() {
-                let what = vec![format!("start option {name}")];
-                return Err(Error::NonFinite { what });
+                return Err(Error::non_finite(format!("start option {name}")));
             }
         }
         let value = |o: &StartOption| options.get(o.name).unwrap_or(o.default);

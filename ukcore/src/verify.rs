@@ -333,12 +333,7 @@ impl<'a> Verification<'a> {
 
 impl fmt::Display for Verified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Verified {
-            name,
-            states,
-            numbers,
-            worst,
-        } = self;
+        let (name, states, numbers, worst) = (self.name, self.states, self.numbers, self.worst);
         write!(
             f,
             "`{name}` is what it declares: {numbers} numbers at {states} states, the worst at {worst:.1e} of what is allowed"

@@ -354,10 +354,10 @@ impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
             return Ok(());
         }
         let (name, own) = (other.spec.name, self.spec.name);
-        Err(Error::InvalidSetting {
-            what: "mechanism",
-            reason: format!("is a `{name}`, but this {what} was made for `{own}`"),
-        })
+        Err(Error::invalid(
+            "mechanism",
+            format!("is a `{name}`, but this {what} was made for `{own}`"),
+        ))
     }
 }
 

@@ -54,11 +54,9 @@ pub(super) fn check_branch(
 
 /// An error that names the constraints whose significance in the last solution was not above `significance`.
 fn singular(solver: &Solver, significance: f64) -> Error {
-    let weak = solver.rows_below(significance).iter();
-    let names = weak.map(|c| solver.mechanism().spec().constraints[*c].name.to_owned());
-    Error::Singular {
-        constraints: names.collect(),
-    }
+    let spec = solver.mechanism().spec();
+    let constraints = spec.constraint_names(solver.rows_below(significance));
+    Error::Singular { constraints }
 }
 
 /// The least significance of a constraint that counts at a state.
@@ -249,12 +247,10 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
     };
     let pairs = sizes(start.q).into_iter().zip(sizes(&beside));
     let lost = pairs.enumerate().filter(|(_, (a, b))| *a < BEGUN * b);
-    let lost: Vec<String> = lost
-        .map(|(c, _)| spec.constraints[c].name.to_owned())
-        .collect();
+    let lost: Vec<usize> = lost.map(|(c, _)| c).collect();
     match lost.is_empty() {
         true => crossing::at(mechanism, start, &there.v, size, &measure).unwrap_or_default(),
-        false => lost,
+        false => spec.constraint_names(&lost),
     }
 }
 

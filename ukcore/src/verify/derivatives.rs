@@ -6,7 +6,7 @@ use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix};
 use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar, Sloped, Slopes};
-use crate::scan::largest;
+use crate::scan::{largest, or_one};
 
 /// Two ways to compute the same carry about the same rounding; so many times that is allowed.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -235,10 +235,7 @@ pub(super) fn lagrangian(
     at[i].eps = 1.0;
     let here = (declared.energy)(mech, constant(*t), &at, &constants(v));
     // ∂T/∂q̇_i of a quadratic T is a difference over any length.
-    let h = match largest(v) {
-        speed if speed > 0.0 => speed,
-        _ => 1.0,
-    };
+    let h = or_one(largest(v));
     let moving = |h: f64| {
         let mut v = constants(v);
         v[i].re += h;
@@ -252,10 +249,7 @@ pub(super) fn lagrangian(
     let slopes = [kinetic, potential, after, before];
     let slopes: f64 = slopes.iter().map(|x| x.abs()).sum();
     // A slope that is zero but for rounding is no part: it is as large as energy over length.
-    let length = match largest(q) {
-        length if length > 0.0 => length,
-        _ => 1.0,
-    };
+    let length = or_one(largest(q));
     let energy = here.kinetic.re.abs() + here.potential.re.abs();
     let size = slopes.max(ROUNDING / PART * energy / length);
     (kinetic - potential - (after - before), size)
