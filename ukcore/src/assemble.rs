@@ -22,6 +22,7 @@ mod alone;
 mod by_parts;
 mod search;
 
+pub(crate) use by_parts::{scatter, weight};
 pub(crate) use search::Search;
 
 /// A time, coordinates and velocities.
@@ -39,12 +40,13 @@ impl State {
     /// The state of a mechanism at rest at q = 0, t = 0.
     #[must_use]
     pub fn zeros<M: Mechanism>() -> Self {
-        let n = M::SPEC.n();
-        State {
-            t: 0.0,
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-        }
+        State::at_rest(0.0, vec![0.0; M::SPEC.n()])
+    }
+
+    /// The state of a mechanism at rest at `q`.
+    pub(crate) fn at_rest(t: f64, q: Vec<f64>) -> Self {
+        let v = vec![0.0; q.len()];
+        State { t, q, v }
     }
 
     /// A guess by names, for [`assemble`](crate::assemble()): `x` or `bar[0].angle` is a coordinate, `dot(x)` its velocity, a family's bare

@@ -34,6 +34,16 @@ pub(crate) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
+    /// All rows of an A that has so many.
+    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
+        let stride = rows;
+        Rows {
+            jacobian,
+            stride,
+            rows,
+        }
+    }
+
     /// Entries of row `c`.
     pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
         let entries = self.jacobian.iter().skip(c);
@@ -60,12 +70,7 @@ impl<'a> Rows<'a> {
 impl Evaluated {
     /// All rows of A.
     pub(crate) fn rows(&self) -> Rows<'_> {
-        let rows = self.rhs.len();
-        Rows {
-            jacobian: &self.jacobian,
-            stride: rows,
-            rows,
-        }
+        Rows::all(&self.jacobian, self.rhs.len())
     }
 }
 
@@ -163,9 +168,7 @@ impl Dense {
             Route::Regular => self.metric.factor(mass)?,
             Route::Singular => (self.metric).scale(
                 mass,
-                a.jacobian,
-                a.stride,
-                a.rows,
+                a,
                 self.regular.iter().copied().flatten().copied(),
                 &self.measure.scale,
             )?,

@@ -133,11 +133,9 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
     if ideal && spec.structure.loaded {
         what.push("a reaction (not unique where constraints imply each other)".to_owned());
     }
-    if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {
-        for constraint in constraints {
-            if !what.contains(&constraint) {
-                what.push(constraint);
-            }
+    for constraint in non_finite_rows(spec, rhs) {
+        if !what.contains(&constraint) {
+            what.push(constraint);
         }
     }
     Error::NonFinite { what }
@@ -160,15 +158,13 @@ pub(crate) fn non_finite_matrices(spec: &Spec, mass: &[f64], jacobian: &[f64]) -
     what
 }
 
-/// An [`Error::NonFinite`] for constraint residuals.
-pub(crate) fn non_finite_residual(spec: &Spec, residual: &[f64]) -> Error {
+/// The constraints whose residuals are not finite.
+pub(crate) fn non_finite_rows(spec: &Spec, residual: &[f64]) -> Vec<String> {
     let rows = spec.constraints.iter().zip(residual);
-    Error::NonFinite {
-        what: rows
-            .filter(|(_, r)| !r.is_finite())
-            .map(|(c, _)| format!("constraint {}", c.name))
-            .collect(),
-    }
+    let broken = rows.filter(|(_, r)| !r.is_finite());
+    broken
+        .map(|(c, _)| format!("constraint {}", c.name))
+        .collect()
 }
 
 /// The length checks common to everything that takes a state.

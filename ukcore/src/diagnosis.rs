@@ -9,14 +9,11 @@ use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
-use crate::nearby::nearby;
-use crate::random::Random;
+use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 use crate::spectrum::singular;
 
-/// States near one that are looked at, to tell what holds at it alone.
-const NEIGHBOURS: usize = 3;
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;
 
@@ -87,31 +84,21 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     let (rank, rows) = independent(&mut solver, state)?;
     let relations = relations(&rows, rank);
     let names = |rows: &[usize]| spec.constraint_names(rows);
-    let follow: Vec<usize> = relations.iter().map(|r| r.row).collect();
+    let follow = implied(&relations);
     let mut undetermined: Vec<usize> = relations.iter().flat_map(Relation::rows).collect();
     undetermined.sort_unstable();
     undetermined.dedup();
     let mut only_here = Vec::new();
-    let mut random = Random::new(0x5eed);
+    // Where nothing can be solved for nearby, nothing is told of it.
+    let mut beside =
+        neighbours(&mech, state).filter_map(|there| independent(&mut solver, &there).ok());
     // No rank is higher than that of all rows, or all columns.
-    let neighbours = if rank < m.min(n) { NEIGHBOURS } else { 0 };
-    for _ in 0..neighbours {
-        let there = nearby(&mech, state, &mut random);
-        // Where nothing can be solved for nearby, nothing is told of it.
-        let there = there.and_then(|there| independent(&mut solver, &there).ok());
-        let Some((there, rows)) = there.filter(|(there, _)| *there > rank) else {
-            continue;
-        };
-        let remain: Vec<usize> = self::relations(&rows, there)
-            .iter()
-            .map(|r| r.row)
-            .collect();
-        only_here = follow
-            .iter()
-            .copied()
-            .filter(|row| !remain.contains(row))
-            .collect();
-        break;
+    if rank < m.min(n)
+        && let Some((there, rows)) = beside.find(|(there, _)| *there > rank)
+    {
+        let remain = implied(&self::relations(&rows, there));
+        only_here.clone_from(&follow);
+        only_here.retain(|row| !remain.contains(row));
     }
     let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
     let (margin, nearest) = match only_here.is_empty() {
@@ -147,7 +134,7 @@ pub fn diagnose_along(
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
         let found = independent(&mut solver, &state).map(|(rank, rows)| {
-            let follow: Vec<usize> = relations(&rows, rank).iter().map(|r| r.row).collect();
+            let follow = implied(&relations(&rows, rank));
             let free: Vec<usize> = (0..mech.spec().m())
                 .filter(|row| !follow.contains(row))
                 .collect();
@@ -266,6 +253,11 @@ impl Relation {
         rows.push(self.row);
         rows.into_iter()
     }
+}
+
+/// The rows that others imply.
+fn implied(relations: &[Relation]) -> Vec<usize> {
+    relations.iter().map(|relation| relation.row).collect()
 }
 
 /// What the rows before each of `rows`, of which `rank` are independent, imply of it: so many relations as there are more rows than that.

@@ -215,7 +215,6 @@ impl Search {
     fn place(&mut self, state: State) -> Result<Place, Error> {
         let positions = Held {
             positions: self.held.clone(),
-            velocities: Vec::new(),
             ..Held::default()
         };
         let mut state = assembled(&self.mech, &state, positions)?;

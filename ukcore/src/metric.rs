@@ -1,6 +1,8 @@
 //! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
 
+use crate::dense::Rows;
 use crate::pinv::{axpy, dot};
+use crate::scan::or_one;
 
 /// A pivot d_k of the Cholesky factorisation counts as zero below this multiple of n ε M_kk.
 ///
@@ -142,9 +144,7 @@ impl Metric {
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
-        jacobian: &[f64],
-        stride: usize,
-        rows: usize,
+        a: Rows<'_>,
         regular: impl Iterator<Item = usize>,
         measure: &[f64],
     ) -> Result<(), MassFault> {
@@ -157,17 +157,16 @@ impl Metric {
             }
             self.root[i] = own.sqrt();
         }
-        for c in regular.filter(|c| *c < rows) {
-            let row = || jacobian.iter().skip(c).step_by(stride);
+        for c in regular.filter(|c| *c < a.rows) {
             let (mut length, mut root) = (0.0_f64, 0.0_f64);
-            for ((a, own), unit) in row().zip(&self.root).zip(measure) {
-                if *a != 0.0 {
+            for ((a, own), unit) in a.row(c).zip(&self.root).zip(measure) {
+                if a != 0.0 {
                     length = length.hypot(a * unit);
                     root = root.hypot(own * unit);
                 }
             }
             if length > 0.0 {
-                let pairs = self.root.iter_mut().zip(row());
+                let pairs = self.root.iter_mut().zip(a.row(c));
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
             }
         }
@@ -176,10 +175,11 @@ impl Metric {
                 continue;
             }
             let mut root = 0.0_f64;
-            for c in 0..rows {
-                let entry = jacobian[j * stride + c].abs();
-                let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
-                let shares = massive.map(|i| (jacobian[i * stride + c] / self.root[i]).abs());
+            for c in 0..a.rows {
+                let entry = a.jacobian[j * a.stride + c].abs();
+                let row = a.row(c).zip(&self.root).enumerate();
+                let massive = row.filter(|(i, _)| mass[i * n + i] > 0.0);
+                let shares = massive.map(|(_, (a, root))| (a / root).abs());
                 let massive = shares.fold(0.0_f64, f64::max);
                 if massive > 0.0 {
                     root = root.max(entry / massive);
@@ -189,10 +189,9 @@ impl Metric {
         }
         let units = || self.root.iter().zip(measure);
         let largest = units().fold(0.0_f64, |most, (root, unit)| most.max(root * unit));
-        let other = if largest > 0.0 { largest } else { 1.0 };
         for (root, unit) in self.root.iter_mut().zip(measure) {
             if *root == 0.0 {
-                *root = other / unit;
+                *root = or_one(largest) / unit;
             }
         }
         Ok(())
@@ -357,13 +356,11 @@ mod tests {
             Err(MassFault::Indefinite(0))
         );
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
-        let no_rows: [f64; 0] = [];
+        let no_rows = Rows::all(&[], 0);
         assert_eq!(
             full.scale(
                 &[0.0, 1.0, 1.0, 1.0],
-                &no_rows,
-                0,
-                0,
+                no_rows,
                 std::iter::empty(),
                 &[1.0; 2]
             ),

@@ -14,6 +14,15 @@ const SPREAD: f64 = 0.2;
 /// So often at most: then the state itself is taken.
 const HALVINGS: i32 = 24;
 
+/// States near one that tell what holds at it alone.
+const NEIGHBOURS: usize = 3;
+
+/// Some states [near](nearby) `from`, as far as they are found; the same each time.
+pub(crate) fn neighbours(mech: &Prepared, from: &State) -> impl Iterator<Item = State> {
+    let mut random = Random::new(0x5eed);
+    (0..NEIGHBOURS).filter_map(move |_| nearby(mech, from, &mut random))
+}
+
 /// A random state on the constraints near `from`, which is on them or nearly so: displaced in the directions that the constraints allow,
 /// with other velocities, and at another time where constraints depend on time. `None` where none is found at which all terms of the
 /// equations are finite.

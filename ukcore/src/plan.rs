@@ -489,7 +489,8 @@ impl Display for Picture {
     }
 }
 
-fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+/// How many characters the longest of `names` has.
+pub(crate) fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
     names.map(|name| name.chars().count()).max().unwrap_or(0)
 }
 

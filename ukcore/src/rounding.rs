@@ -10,7 +10,7 @@ use crate::scalar::{Dual, Scalar, functions};
 ///
 /// It sees what derivatives do not: in φ = (x − a)² − a² at x = 0 the coordinate is exact, but 2a² is rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rounded {
+pub(crate) struct Rounded {
     value: f64,
     error: f64,
 }

@@ -204,10 +204,16 @@ impl Solver {
         self.dropping.certificate = certificate;
         let good = self.dropping.accepted.has(certificate) && all_finite(out);
         if good {
-            self.work.evaluations += 1;
-            self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+            self.count();
         }
         good
+    }
+
+    /// Takes note of a solution by the straight line.
+    #[inline]
+    fn count(&mut self) {
+        self.work.evaluations += 1;
+        self.full = self.dropping.rank(self.m).unwrap_or(self.m);
     }
 
     /// Accelerations where the straight line was tried, and left them in `out` for refinement, or there is none.
@@ -225,8 +231,7 @@ impl Solver {
         if self.dropping.is_uneven() && all_finite(out) {
             self.here.dynamics(&self.mechanism, t, q, v);
             if self.is_even() {
-                self.work.evaluations += 1;
-                self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+                self.count();
                 return Ok(());
             }
         }

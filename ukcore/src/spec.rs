@@ -196,6 +196,19 @@ pub struct SwitchSpec {
     pub length: bool,
 }
 
+impl SwitchSpec {
+    /// The terms that contain some of `switches`, each once.
+    pub(crate) fn terms<'a>(switches: impl Iterator<Item = &'a SwitchSpec>) -> Vec<String> {
+        let mut terms: Vec<String> = Vec::new();
+        for term in switches.flat_map(|switch| switch.terms) {
+            if !terms.iter().any(|known| known == term) {
+                terms.push((*term).to_owned());
+            }
+        }
+        terms
+    }
+}
+
 /// A constraint.
 #[derive(Debug)]
 pub struct ConstraintSpec {

@@ -366,10 +366,8 @@ impl Trajectory {
         let mut solver = Solver::new(&self.mechanism, self.options);
         let mut acceleration = |s: Sample<'_>| {
             let mut out = vec![0.0; s.q.len()];
-            match solver.acceleration(s.t, s.q, s.v, &mut out) {
-                Ok(()) => Ok(out),
-                Err(error) => Err(s.locate(error)),
-            }
+            let solved = solver.acceleration(s.t, s.q, s.v, &mut out);
+            solved.map_or_else(|error| Err(s.locate(error)), |()| Ok(out))
         };
         self.samples().map(&mut acceleration).collect()
     }

@@ -135,12 +135,8 @@ fn values<M: Mechanism, S: Scalar>(mech: &Prepared) -> Vec<S> {
     values
 }
 
-fn constant(x: f64) -> Dual {
-    Dual::from_f64(x)
-}
-
 fn constants(x: &[f64]) -> Vec<Dual> {
-    x.iter().map(|x| constant(*x)).collect()
+    x.iter().map(|x| Dual::from_f64(*x)).collect()
 }
 
 /// `x` with the derivative `slope`.

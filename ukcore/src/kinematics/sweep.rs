@@ -12,8 +12,7 @@ use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
 use crate::modes::{mass_matrix, units};
-use crate::nearby::nearby;
-use crate::random::Random;
+use crate::nearby::neighbours;
 use crate::scan::or_one;
 
 /// How fast s changes along the curve, below which a drive stands still: at a dead centre positions are known to the root of rounding.
@@ -22,8 +21,6 @@ pub(super) const STILL: f64 = 1e-7;
 const LONG: f64 = 100.0;
 /// A share of a limit that is rounding.
 const SHARE: f64 = 1e-6;
-/// States beside one that are looked at, to tell what holds at it alone.
-const NEIGHBOURS: usize = 3;
 
 /// There is no smooth way on at `state`.
 pub(super) fn stuck(state: State) -> Error {
@@ -278,9 +275,7 @@ impl<'a> Sweep<'a> {
     /// The rows at other consistent states, beside `state`.
     fn beside(&self, curve: &Curve<'_>, state: &State) -> Vec<Rows> {
         let n = self.mech.spec().n();
-        let mut random = Random::new(0x5eed);
-        let states = (0..NEIGHBOURS).filter_map(|_| nearby(self.mech, state, &mut random));
-        let others = states.filter(|there| there.q != state.q);
+        let others = neighbours(self.mech, state).filter(|there| there.q != state.q);
         let rows = others.map(|there| {
             let x = DVector::from_vec(there.q).insert_row(n, 0.0);
             let time = (there.t, curve.time.1);
@@ -371,11 +366,7 @@ impl<'a> Sweep<'a> {
 
     fn state(&self, curve: &Curve<'_>, place: &Place) -> State {
         let n = self.mech.spec().n();
-        State {
-            t: curve.time_at(place.s()),
-            q: place.x.as_slice()[..n].to_vec(),
-            v: vec![0.0; n],
-        }
+        State::at_rest(curve.time_at(place.s()), place.x.as_slice()[..n].to_vec())
     }
 
     /// The limit at `place`, where the drives stand still.

@@ -13,6 +13,7 @@ use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
+use crate::spec::SwitchSpec;
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -163,11 +164,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
         let mut jacobian = vec![0.0; near.q.len() * spec.m()];
         mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
-        let rows = Rows {
-            jacobian: &jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
+        let rows = Rows::all(&jacobian, spec.m());
         if rows.largest(*row, &found.scale) <= RANK_CEILING * found.size {
             return None;
         }
@@ -237,11 +234,7 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
     let sizes = |q: &[f64]| -> Vec<f64> {
         let mut jacobian = vec![0.0; spec.n() * spec.m()];
         mechanism.jacobian(start.t, q, &there.v, &mut jacobian);
-        let rows = Rows {
-            jacobian: &jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
+        let rows = Rows::all(&jacobian, spec.m());
         let largest = |c: usize| rows.largest(c, &measure.scale);
         (0..spec.holonomic).map(largest).collect()
     };
@@ -336,11 +329,5 @@ fn directions(mechanism: &Prepared, State { t, q, v }: &State) -> Vec<String> {
     mechanism.switching(*t, q, v, &mut values);
     let zero = switches.iter().zip(values);
     let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
-    let mut terms: Vec<String> = Vec::new();
-    for term in zero.flat_map(|(switch, _)| switch.terms) {
-        if !terms.iter().any(|known| known == term) {
-            terms.push((*term).to_owned());
-        }
-    }
-    terms
+    SwitchSpec::terms(zero.map(|(switch, _)| switch))
 }

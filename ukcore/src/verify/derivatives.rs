@@ -1,6 +1,6 @@
 //! M, Q, A and b against derivatives of what is declared.
 
-use super::{Declared, Findings, along, constant, constants};
+use super::{Declared, Findings, along, constants};
 use crate::assemble::State;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix};
@@ -140,7 +140,7 @@ impl Checked<'_> {
     /// φ with its first and second derivatives along (1, q̇) at constant velocities: φ̇ as `re.eps`, φ̈ as `eps.eps`.
     fn twice(&self) -> Vec<Dual<Dual>> {
         let State { t, q, v } = self.state;
-        let twice = |x: f64, d: f64| Dual::new(Dual::new(x, d), constant(d));
+        let twice = |x: f64, d: f64| Dual::new(Dual::new(x, d), Dual::from_f64(d));
         let q: Vec<_> = q.iter().zip(v).map(|(x, d)| twice(*x, *d)).collect();
         (self.declared.residual)(self.mech, twice(*t, 1.0), &q)
     }
@@ -233,7 +233,7 @@ pub(super) fn lagrangian(
     let State { t, q, v } = state;
     let mut at = constants(q);
     at[i].eps = 1.0;
-    let here = (declared.energy)(mech, constant(*t), &at, &constants(v));
+    let here = (declared.energy)(mech, Dual::from_f64(*t), &at, &constants(v));
     // ∂T/∂q̇_i of a quadratic T is a difference over any length.
     let h = or_one(largest(v));
     let moving = |h: f64| {
