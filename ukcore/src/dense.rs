@@ -420,9 +420,8 @@ impl Dense {
         let dependences = &mut self.dependences[..rows * (rows - self.cod.rank())];
         self.cod.dependences(dependences);
         // In rows scaled as they are solved; one of zeros has no scale.
-        let unit = |scale: f64| if scale > 0.0 { scale } else { 1.0 };
         let scaled = errors.iter_mut().zip(&self.row_scale);
-        scaled.for_each(|(error, scale)| *error *= unit(*scale));
+        scaled.for_each(|(error, scale)| *error *= or_one(*scale));
         self.left.fill(0.0);
         for shares in dependences.chunks_exact(rows) {
             let terms = shares.iter().zip(&*errors);
@@ -431,7 +430,7 @@ impl Dense {
             left.for_each(|(left, share)| *left += share.abs() * error);
         }
         for ((error, left), scale) in errors.iter_mut().zip(&self.left).zip(&self.row_scale) {
-            *error = error.max(*left) / unit(*scale);
+            *error = error.max(*left) / or_one(*scale);
         }
     }
 
@@ -453,7 +452,7 @@ impl Dense {
         for column in basis.chunks_exact_mut(m) {
             for (x, s) in column.iter_mut().zip(&self.row_scale) {
                 // A row of zeros has no scale and takes part in no force.
-                *x *= if *s > 0.0 { *s } else { 1.0 };
+                *x *= or_one(*s);
             }
         }
         for j in 0..excess {

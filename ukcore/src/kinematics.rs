@@ -214,10 +214,13 @@ impl fmt::Display for Limit {
             }
         });
         write!(f, "{}", drives.collect::<Vec<_>>().join(", "))?;
-        match self.constraints.len() {
-            0 => {}
-            1 => write!(f, ": {} holds it", quoted(&self.constraints))?,
-            _ => write!(f, ": {} hold it", quoted(&self.constraints))?,
+        if !self.constraints.is_empty() {
+            let hold = if self.constraints.len() == 1 {
+                "holds"
+            } else {
+                "hold"
+            };
+            write!(f, ": {} {hold} it", quoted(&self.constraints))?;
         }
         write!(
             f,

@@ -84,7 +84,9 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let together = TOGETHER * reduced.norm();
     let transposed = reduced.transpose();
     let mut shapes: Vec<Found> = Vec::new();
-    for value in &eigenvalues(&reduced).ok_or_else(unfound)? {
+    let reason = "has a linearised motion whose eigenvalues were not found";
+    let values = eigenvalues(&reduced).ok_or_else(|| Error::invalid("state", reason))?;
+    for value in &values {
         let part = eigenvector(&reduced, *value, 0);
         // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
         // as is left of the equation, where eigenvalues coincide.
@@ -194,13 +196,6 @@ fn share_out(
         shape[leader] = Complex::new(0.0, 0.0);
     }
     Some(other)
-}
-
-fn unfound() -> Error {
-    Error::invalid(
-        "state",
-        "has a linearised motion whose eigenvalues were not found",
-    )
 }
 
 /// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
