@@ -62,6 +62,9 @@ pub trait Emitted<S>: Dynamics<S> {
     ) -> S;
 }
 
+type Inertias = fn(&[f64], &mut dyn FnMut(&'static str, &[f64]));
+type AtState = fn(&[f64], f64, &[f64], &[f64], &mut [f64]);
+
 /// What a mechanism is in all numbers that the runtime needs. Only functions that it calls are in a table, for each one in it is compiled.
 pub struct Face {
     /// [`Mechanism::INTEGRALS`].
@@ -69,9 +72,9 @@ pub struct Face {
     /// The identity of the mechanism's type.
     id: fn() -> TypeId,
     /// [`Mechanism::inertias`].
-    inertias: fn(&[f64], &mut dyn FnMut(&'static str, &[f64])),
+    inertias: Inertias,
     /// [`Mechanism::drawing`].
-    drawing: fn(&[f64], f64, &[f64], &[f64], &mut [f64]),
+    drawing: AtState,
     /// [`Mechanism::guess`].
     guess: fn(usize, &[f64], &mut dyn FnMut(Guess)),
     /// In numbers that carry derivatives.
