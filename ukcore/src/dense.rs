@@ -168,7 +168,9 @@ impl Dense {
             Route::Regular => self.metric.factor(mass)?,
             Route::Singular => (self.metric).scale(
                 mass,
-                a,
+                a.jacobian,
+                a.stride,
+                a.rows,
                 self.regular.iter().copied().flatten().copied(),
                 &self.measure.scale,
             )?,

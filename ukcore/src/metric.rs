@@ -1,6 +1,5 @@
 //! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
 
-use crate::dense::Rows;
 use crate::pinv::{axpy, dot};
 use crate::scan::or_one;
 
@@ -144,7 +143,9 @@ impl Metric {
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
-        a: Rows<'_>,
+        jacobian: &[f64],
+        stride: usize,
+        rows: usize,
         regular: impl Iterator<Item = usize>,
         measure: &[f64],
     ) -> Result<(), MassFault> {
@@ -157,16 +158,17 @@ impl Metric {
             }
             self.root[i] = own.sqrt();
         }
-        for c in regular.filter(|c| *c < a.rows) {
+        for c in regular.filter(|c| *c < rows) {
+            let row = || jacobian.iter().skip(c).step_by(stride);
             let (mut length, mut root) = (0.0_f64, 0.0_f64);
-            for ((a, own), unit) in a.row(c).zip(&self.root).zip(measure) {
-                if a != 0.0 {
+            for ((a, own), unit) in row().zip(&self.root).zip(measure) {
+                if *a != 0.0 {
                     length = length.hypot(a * unit);
                     root = root.hypot(own * unit);
                 }
             }
             if length > 0.0 {
-                let pairs = self.root.iter_mut().zip(a.row(c));
+                let pairs = self.root.iter_mut().zip(row());
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
             }
         }
@@ -175,11 +177,10 @@ impl Metric {
                 continue;
             }
             let mut root = 0.0_f64;
-            for c in 0..a.rows {
-                let entry = a.jacobian[j * a.stride + c].abs();
-                let row = a.row(c).zip(&self.root).enumerate();
-                let massive = row.filter(|(i, _)| mass[i * n + i] > 0.0);
-                let shares = massive.map(|(_, (a, root))| (a / root).abs());
+            for c in 0..rows {
+                let entry = jacobian[j * stride + c].abs();
+                let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
+                let shares = massive.map(|i| (jacobian[i * stride + c] / self.root[i]).abs());
                 let massive = shares.fold(0.0_f64, f64::max);
                 if massive > 0.0 {
                     root = root.max(entry / massive);
@@ -356,11 +357,13 @@ mod tests {
             Err(MassFault::Indefinite(0))
         );
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
-        let no_rows = Rows::all(&[], 0);
+        let no_rows: [f64; 0] = [];
         assert_eq!(
             full.scale(
                 &[0.0, 1.0, 1.0, 1.0],
-                no_rows,
+                &no_rows,
+                0,
+                0,
                 std::iter::empty(),
                 &[1.0; 2]
             ),
