@@ -22,6 +22,7 @@ mod alone;
 mod by_parts;
 mod search;
 
+pub(crate) use by_parts::{scatter, weight};
 pub(crate) use search::Search;
 
 /// A time, coordinates and velocities.
@@ -39,12 +40,13 @@ impl State {
     /// The state of a mechanism at rest at q = 0, t = 0.
     #[must_use]
     pub fn zeros<M: Mechanism>() -> Self {
-        let n = M::SPEC.n();
-        State {
-            t: 0.0,
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-        }
+        State::at_rest(0.0, vec![0.0; M::SPEC.n()])
+    }
+
+    /// The state of a mechanism at rest at `q`.
+    pub(crate) fn at_rest(t: f64, q: Vec<f64>) -> Self {
+        let v = vec![0.0; q.len()];
+        State { t, q, v }
     }
 
     /// A guess by names, for [`assemble`](crate::assemble()): `x` or `bar[0].angle` is a coordinate, `dot(x)` its velocity, a family's bare
@@ -78,9 +80,7 @@ impl State {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NonFinite`] (also for parameters of `mech`).
     pub fn check(&self, mech: &Prepared) -> Result<(), Error> {
-        let n = mech.spec().n();
-        diagnose::check_length("q", self.q.len(), n)?;
-        diagnose::check_length("v", self.v.len(), n)?;
+        diagnose::check_lengths(mech, &self.q, &self.v)?;
         diagnose::bad_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
@@ -115,8 +115,7 @@ impl Residuals {
 pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residuals, Error> {
     let mech: Prepared = mechanism.into();
     let spec = mech.spec();
-    diagnose::check_length("q", state.q.len(), spec.n())?;
-    diagnose::check_length("v", state.v.len(), spec.n())?;
+    diagnose::check_lengths(&mech, &state.q, &state.v)?;
     let mut position = vec![0.0; spec.holonomic];
     let mut velocity = vec![0.0; spec.m()];
     mech.residual(state.t, &state.q, &mut position);

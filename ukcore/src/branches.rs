@@ -6,7 +6,7 @@
 
 use nalgebra::DVector;
 
-use crate::assemble::{Held, Search, State, assembled, held};
+use crate::assemble::{Held, Search, State, assembled, held, scatter, weight};
 use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
@@ -32,8 +32,6 @@ pub struct Assembled {
 const BEGINNINGS: usize = 24;
 /// Another branch is as near if its distance is not more than this many times that of the nearest.
 const AS_NEAR: f64 = 1.5;
-/// What the guess does not tell of counts so little.
-const UNTOLD: f64 = 1e-6;
 /// Distances below this part of what coordinates extend over are none.
 const NONE: f64 = 1e-7;
 /// Steps towards the guess within a branch.
@@ -113,18 +111,11 @@ fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assem
     guess.check(mech)?;
     diagnose::inertias(mech)?;
     let units = units(&mass_matrix(mech, guess));
-    let weight = |j: usize| {
-        if held.untold.contains(&j) {
-            UNTOLD
-        } else {
-            1.0
-        }
-    };
     let mut ways = Ways {
         mech,
         guess,
         held,
-        weights: DVector::from_fn(units.len(), |j, _| weight(j) / units[j]),
+        weights: DVector::from_fn(units.len(), |j, _| weight(&held.untold, j) / units[j]),
         units,
         extents: Vec::new(),
         found: Vec::new(),
@@ -188,18 +179,12 @@ impl Ways<'_> {
         let mut search = Search::new(mech, guess, &self.held.positions);
         let at = At::new(mech, Level::Position, guess.t, &guess.v);
         let mut random = Random::new(0x5eed);
-        let angles = mech.spec().structure.angles;
         for k in 0..=BEGINNINGS {
             let mut q = guess.q.clone();
             // Ever farther off.
             let share = k as f64 / BEGINNINGS as f64;
-            for j in search.free.clone() {
-                let reach = match angles.contains(&j) {
-                    true => std::f64::consts::PI,
-                    false => self.extents[j],
-                };
-                q[j] += share * reach * random.signed();
-            }
+            let extents = &self.extents;
+            scatter(mech, &mut q, &search.free, share, extents, &mut random);
             if search.manifold.search(&at, &guess.q, &mut q).is_ok() {
                 self.approach(&mut search, &at, &mut q);
                 self.enter(q);

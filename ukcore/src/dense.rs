@@ -14,7 +14,7 @@ use crate::measure::Measure;
 use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::largest;
+use crate::scan::{largest, or_one};
 use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
@@ -34,6 +34,16 @@ pub(crate) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
+    /// All rows of an A that has so many.
+    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
+        let stride = rows;
+        Rows {
+            jacobian,
+            stride,
+            rows,
+        }
+    }
+
     /// Entries of row `c`.
     pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
         let entries = self.jacobian.iter().skip(c);
@@ -60,12 +70,7 @@ impl<'a> Rows<'a> {
 impl Evaluated {
     /// All rows of A.
     pub(crate) fn rows(&self) -> Rows<'_> {
-        let rows = self.rhs.len();
-        Rows {
-            jacobian: &self.jacobian,
-            stride: rows,
-            rows,
-        }
+        Rows::all(&self.jacobian, self.rhs.len())
     }
 }
 
@@ -116,8 +121,7 @@ pub(crate) struct Dense {
 impl Dense {
     /// What makes the residuals of the rows comparable. A row of zeros has no scale: 0 = b.
     pub(crate) fn residual_scale(&self) -> Vec<f64> {
-        let scales = self.row_scale.iter();
-        scales.map(|&s| if s > 0.0 { s } else { 1.0 }).collect()
+        self.row_scale.iter().copied().map(or_one).collect()
     }
 
     /// Buffers for the mechanisms of a type.
@@ -418,9 +422,8 @@ impl Dense {
         let dependences = &mut self.dependences[..rows * (rows - self.cod.rank())];
         self.cod.dependences(dependences);
         // In rows scaled as they are solved; one of zeros has no scale.
-        let unit = |scale: f64| if scale > 0.0 { scale } else { 1.0 };
         let scaled = errors.iter_mut().zip(&self.row_scale);
-        scaled.for_each(|(error, scale)| *error *= unit(*scale));
+        scaled.for_each(|(error, scale)| *error *= or_one(*scale));
         self.left.fill(0.0);
         for shares in dependences.chunks_exact(rows) {
             let terms = shares.iter().zip(&*errors);
@@ -429,7 +432,7 @@ impl Dense {
             left.for_each(|(left, share)| *left += share.abs() * error);
         }
         for ((error, left), scale) in errors.iter_mut().zip(&self.left).zip(&self.row_scale) {
-            *error = error.max(*left) / unit(*scale);
+            *error = error.max(*left) / or_one(*scale);
         }
     }
 
@@ -451,7 +454,7 @@ impl Dense {
         for column in basis.chunks_exact_mut(m) {
             for (x, s) in column.iter_mut().zip(&self.row_scale) {
                 // A row of zeros has no scale and takes part in no force.
-                *x *= if *s > 0.0 { *s } else { 1.0 };
+                *x *= or_one(*s);
             }
         }
         for j in 0..excess {

@@ -73,7 +73,7 @@ pub(crate) fn inertias(mech: &Prepared) -> Result<(), Error> {
 
 /// Whether a rigid body can have this mass and this inertia about its centre of mass.
 fn possible(body: &str, mass: f64, inertia: &Matrix3<f64>) -> Result<(), Error> {
-    let refuse = |what, reason: String| Err(Error::InvalidSetting { what, reason });
+    let refuse = |what, reason: String| Err(Error::invalid(what, reason));
     let numbers = DMatrix::from_column_slice(3, 3, inertia.as_slice());
     let Some(moments) = symmetric(numbers).map(|eigen| eigen.eigenvalues) else {
         return refuse("inertia", format!("of `{body}` is not finite"));
@@ -108,13 +108,13 @@ pub(crate) fn subnormal(mech: &Prepared) -> Result<(), Error> {
         return Ok(());
     };
     let (name, value) = (mech.spec().params[i].name, mech.parameters()[i]);
-    Err(Error::InvalidSetting {
-        what: "parameter",
-        reason: format!(
+    Err(Error::invalid(
+        "parameter",
+        format!(
             "`{name}` is {value:e}: below {:.1e} numbers lose digits; take other units",
             f64::MIN_POSITIVE
         ),
-    })
+    ))
 }
 
 /// An [`Error::NonFinite`] for the terms of the equations, in order: mass and constraints, forces, b.
@@ -133,11 +133,9 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
     if ideal && spec.structure.loaded {
         what.push("a reaction (not unique where constraints imply each other)".to_owned());
     }
-    if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {
-        for constraint in constraints {
-            if !what.contains(&constraint) {
-                what.push(constraint);
-            }
+    for constraint in non_finite_rows(spec, rhs) {
+        if !what.contains(&constraint) {
+            what.push(constraint);
         }
     }
     Error::NonFinite { what }
@@ -160,18 +158,22 @@ pub(crate) fn non_finite_matrices(spec: &Spec, mass: &[f64], jacobian: &[f64]) -
     what
 }
 
-/// An [`Error::NonFinite`] for constraint residuals.
-pub(crate) fn non_finite_residual(spec: &Spec, residual: &[f64]) -> Error {
+/// The constraints whose residuals are not finite.
+pub(crate) fn non_finite_rows(spec: &Spec, residual: &[f64]) -> Vec<String> {
     let rows = spec.constraints.iter().zip(residual);
-    Error::NonFinite {
-        what: rows
-            .filter(|(_, r)| !r.is_finite())
-            .map(|(c, _)| format!("constraint {}", c.name))
-            .collect(),
-    }
+    let broken = rows.filter(|(_, r)| !r.is_finite());
+    broken
+        .map(|(c, _)| format!("constraint {}", c.name))
+        .collect()
 }
 
 /// The length checks common to everything that takes a state.
+pub(crate) fn check_lengths(mech: &Prepared, q: &[f64], v: &[f64]) -> Result<(), Error> {
+    check_length("q", q.len(), mech.spec().n())?;
+    check_length("v", v.len(), mech.spec().n())
+}
+
+/// Refuses a vector whose length is not the `expected` one.
 pub(crate) fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
     if found == expected {
         Ok(())

@@ -9,14 +9,11 @@ use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
-use crate::nearby::nearby;
-use crate::random::Random;
+use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 use crate::spectrum::singular;
 
-/// States near one that are looked at, to tell what holds at it alone.
-const NEIGHBOURS: usize = 3;
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;
 
@@ -86,32 +83,22 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     let mut solver = Solver::new(&mech, SolverOptions::default());
     let (rank, rows) = independent(&mut solver, state)?;
     let relations = relations(&rows, rank);
-    let names = |rows: &[usize]| names(spec, rows);
-    let follow: Vec<usize> = relations.iter().map(|r| r.row).collect();
+    let names = |rows: &[usize]| spec.constraint_names(rows);
+    let follow = implied(&relations);
     let mut undetermined: Vec<usize> = relations.iter().flat_map(Relation::rows).collect();
     undetermined.sort_unstable();
     undetermined.dedup();
     let mut only_here = Vec::new();
-    let mut random = Random::new(0x5eed);
+    // Where nothing can be solved for nearby, nothing is told of it.
+    let mut beside =
+        neighbours(&mech, state).filter_map(|there| independent(&mut solver, &there).ok());
     // No rank is higher than that of all rows, or all columns.
-    let neighbours = if rank < m.min(n) { NEIGHBOURS } else { 0 };
-    for _ in 0..neighbours {
-        let there = nearby(&mech, state, &mut random);
-        // Where nothing can be solved for nearby, nothing is told of it.
-        let there = there.and_then(|there| independent(&mut solver, &there).ok());
-        let Some((there, rows)) = there.filter(|(there, _)| *there > rank) else {
-            continue;
-        };
-        let remain: Vec<usize> = self::relations(&rows, there)
-            .iter()
-            .map(|r| r.row)
-            .collect();
-        only_here = follow
-            .iter()
-            .copied()
-            .filter(|row| !remain.contains(row))
-            .collect();
-        break;
+    if rank < m.min(n)
+        && let Some((there, rows)) = beside.find(|(there, _)| *there > rank)
+    {
+        let remain = implied(&self::relations(&rows, there));
+        only_here.clone_from(&follow);
+        only_here.retain(|row| !remain.contains(row));
     }
     let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
     let (margin, nearest) = match only_here.is_empty() {
@@ -147,7 +134,7 @@ pub fn diagnose_along(
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
         let found = independent(&mut solver, &state).map(|(rank, rows)| {
-            let follow: Vec<usize> = relations(&rows, rank).iter().map(|r| r.row).collect();
+            let follow = implied(&relations(&rows, rank));
             let free: Vec<usize> = (0..mech.spec().m())
                 .filter(|row| !follow.contains(row))
                 .collect();
@@ -211,14 +198,9 @@ pub(crate) fn redundant(mech: &Prepared, state: &State, rank: usize) -> Vec<Redu
 fn named(spec: &Spec, relations: &[Relation]) -> Vec<Redundant> {
     let named = relations.iter().map(|relation| Redundant {
         name: spec.constraints[relation.row].name.to_owned(),
-        follows_from: names(spec, &relation.from),
+        follows_from: spec.constraint_names(&relation.from),
     });
     named.collect()
-}
-
-fn names(spec: &Spec, rows: &[usize]) -> Vec<String> {
-    let names = rows.iter().map(|i| spec.constraints[*i].name.to_owned());
-    names.collect()
 }
 
 /// The rank of A, as the solver decides it, and its rows, each of length 1 in the mass metric.
@@ -273,6 +255,11 @@ impl Relation {
     }
 }
 
+/// The rows that others imply.
+fn implied(relations: &[Relation]) -> Vec<usize> {
+    relations.iter().map(|relation| relation.row).collect()
+}
+
 /// What the rows before each of `rows`, of which `rank` are independent, imply of it: so many relations as there are more rows than that.
 pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     let (m, n) = rows.shape();
@@ -318,12 +305,7 @@ pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Diagnosis {
-            coordinates,
-            constraints,
-            rank,
-            ..
-        } = self;
+        let (rank, constraints) = (self.rank, self.constraints);
         let counted = |count: usize, what: &str| match count {
             1 => format!("1 {what}"),
             _ => format!("{count} {what}s"),
@@ -333,8 +315,8 @@ impl fmt::Display for Diagnosis {
         write!(
             f,
             "{}, {} of rank {rank}: {freedoms} {plural} of freedom",
-            counted(*coordinates, "coordinate"),
-            counted(*constraints, "constraint"),
+            counted(self.coordinates, "coordinate"),
+            counted(constraints, "constraint"),
         )?;
         if self.freedoms_of_position != freedoms {
             write!(f, " ({} of position)", self.freedoms_of_position)?;
@@ -353,7 +335,7 @@ impl fmt::Display for Diagnosis {
         }
         match &self.undetermined[..] {
             [] => write!(f, "\nall reactions are unique")?,
-            rows if rows.len() == *constraints => write!(f, "\nno reaction is unique")?,
+            rows if rows.len() == constraints => write!(f, "\nno reaction is unique")?,
             rows => write!(f, "\nreactions are unique but for {}", quoted(rows))?,
         }
         match self.nearness() {

@@ -111,20 +111,20 @@ pub fn equilibrium(
         }
     }
     let most = here.push.icamax();
-    Err(Error::InvalidSetting {
-        what: "guess",
-        reason: format!(
+    Err(Error::invalid(
+        "guess",
+        format!(
             "leads to no rest position: where the search ends `{}` is still driven most; give a nearer one, or hold coordinates",
             search.mech.spec().coords[most]
         ),
-    })
+    ))
 }
 
 fn unfound() -> Error {
-    Error::InvalidSetting {
-        what: "guess",
-        reason: "leads to where the stiffness is not finite; give another one".into(),
-    }
+    Error::invalid(
+        "guess",
+        "leads to where the stiffness is not finite; give another one",
+    )
 }
 
 struct Search {
@@ -215,17 +215,13 @@ impl Search {
     fn place(&mut self, state: State) -> Result<Place, Error> {
         let positions = Held {
             positions: self.held.clone(),
-            velocities: Vec::new(),
             ..Held::default()
         };
         let mut state = assembled(&self.mech, &state, positions)?;
         if let Some(j) = state.v.iter().position(|v| *v != 0.0) {
             let name = self.mech.spec().coords[j];
             let reason = format!("does not rest: constraints that change with time move `{name}`");
-            return Err(Error::InvalidSetting {
-                what: "guess",
-                reason,
-            });
+            return Err(Error::invalid("guess", reason));
         }
         state.v.fill(0.0);
         let solved = self.solver.solve(state.t, &state.q, &state.v)?;

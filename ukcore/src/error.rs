@@ -188,6 +188,18 @@ pub enum Error {
 const MOST_LISTED: usize = 8;
 
 impl Error {
+    /// An [`Error::InvalidSetting`].
+    pub(crate) fn invalid(what: &'static str, reason: impl Into<String>) -> Self {
+        let reason = reason.into();
+        Error::InvalidSetting { what, reason }
+    }
+
+    /// An [`Error::NonFinite`] of one thing.
+    pub(crate) fn non_finite(what: impl Into<String>) -> Self {
+        let what = vec![what.into()];
+        Error::NonFinite { what }
+    }
+
     /// An [`Error::StepTooSmall`] of which no more is known.
     pub(crate) fn too_small(step: f64) -> Self {
         let fastest = None;
@@ -251,17 +263,13 @@ fn quoted(names: &[String]) -> String {
 
 /// What to do where holding these coordinates is the cause, or is not.
 fn remedy(held: &[String]) -> String {
-    match held.len() {
-        0 => "make them agree, or give a nearer guess".to_owned(),
-        1 => format!(
-            "the cause is that {} is held: let it go, or give it another value",
-            quoted(held)
-        ),
-        _ => format!(
-            "the cause is that {} are held: let one of them go, or give it another value",
-            quoted(held)
-        ),
-    }
+    let (are, one) = match held.len() {
+        0 => return "make them agree, or give a nearer guess".to_owned(),
+        1 => ("is", "it"),
+        _ => ("are", "one of them"),
+    };
+    let names = quoted(held);
+    format!("the cause is that {names} {are} held: let {one} go, or give it another value")
 }
 
 fn alternatives(nearest: Option<&str>, known: &[String]) -> String {

@@ -203,14 +203,8 @@ impl Watch {
                 };
                 crossing.t = locate(|t| Ok(sign * g(t)?), a, b)?;
             }
-            let forward = t >= t_old;
-            crossings[found..].sort_by(|x, y| {
-                if forward {
-                    x.t.total_cmp(&y.t)
-                } else {
-                    y.t.total_cmp(&x.t)
-                }
-            });
+            let sign = if t < t_old { -1.0 } else { 1.0 };
+            crossings[found..].sort_by(|x, y| (sign * x.t).total_cmp(&(sign * y.t)));
             if let Some(last) = crossings.iter().position(|c| events[c.event].terminal) {
                 crossings.truncate(last + 1);
                 break;
@@ -229,8 +223,7 @@ impl Watch {
 fn evaluate(event: &mut Event, at: Sample<'_>) -> Result<f64, Error> {
     let value = (event.function)(at.t, at.q, at.v);
     if value.is_nan() {
-        let what = vec![format!("event {}", event.name)];
-        return Err(Error::NonFinite { what });
+        return Err(Error::non_finite(format!("event {}", event.name)));
     }
     Ok(value)
 }

@@ -7,6 +7,7 @@ use crate::diagnosis::{Redundant, redundant};
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::numbers::{fixed, short};
+use crate::plan::widest;
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::spec::{ParamSpec, Spec};
 
@@ -68,7 +69,7 @@ impl Explanation {
             write!(f, ", with their value and rate at the start `{name}`")?;
         }
         writeln!(f)?;
-        let wide = width(spec.coords.iter().copied());
+        let wide = widest(spec.coords.iter().copied());
         for (i, name) in spec.coords.iter().enumerate() {
             let mut line = format!("  {name:<wide$}");
             if let Some(Start { state, .. }) = &self.start {
@@ -132,16 +133,12 @@ impl fmt::Display for Explanation {
     }
 }
 
-fn width<'a>(names: impl Iterator<Item = &'a str>) -> usize {
-    names.map(|n| n.chars().count()).max().unwrap_or(0)
-}
-
 /// Names, with what they mean in a column beside them.
 fn table<'a>(
     f: &mut Formatter<'_>,
     rows: impl Iterator<Item = (&'a str, &'a str)> + Clone,
 ) -> fmt::Result {
-    let wide = width(rows.clone().map(|(name, _)| name));
+    let wide = widest(rows.clone().map(|(name, _)| name));
     for (name, meaning) in rows {
         let line = format!("  {name:<wide$}  {}", meaning.trim());
         writeln!(f, "{}", line.trim_end())?;
@@ -242,7 +239,7 @@ fn at_start(f: &mut Formatter<'_>, spec: &Spec, start: &Start) -> fmt::Result {
     writeln!(f, "  redundant constraints: {redundant}")?;
     writeln!(f, "  formula: {}", solution.formula)?;
     writeln!(f, "  accelerations:")?;
-    let wide = width(spec.coords.iter().copied());
+    let wide = widest(spec.coords.iter().copied());
     for (name, value) in spec.coords.iter().zip(&solution.acceleration) {
         writeln!(f, "    {name:<wide$} {:>14}", fixed(*value, DIGITS))?;
     }

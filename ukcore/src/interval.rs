@@ -9,7 +9,7 @@ use crate::scalar::tape::player;
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
+pub(crate) struct Interval {
     low: f64,
     high: f64,
 }

@@ -134,8 +134,7 @@ pub fn inverse_forces(
     state.check(&mech)?;
     diagnose::check_length("acceleration", acceleration.len(), n)?;
     if acceleration.iter().any(|a| !a.is_finite()) {
-        let what = vec!["acceleration".to_owned()];
-        return Err(Error::NonFinite { what });
+        return Err(Error::non_finite("acceleration"));
     }
     let mut terms = Evaluated::new(n, m);
     terms.dynamics(&mech, state.t, &state.q, &state.v);
@@ -149,10 +148,10 @@ pub fn inverse_forces(
         let most = entries.component_mul(&units).norm() * size + b.abs();
         if (entries.dot(&acceleration) - b).abs() > MET * most {
             let name = spec.constraints[row].name;
-            return Err(Error::InvalidSetting {
-                what: "acceleration",
-                reason: format!("does not satisfy the constraint `{name}`"),
-            });
+            return Err(Error::invalid(
+                "acceleration",
+                format!("does not satisfy the constraint `{name}`"),
+            ));
         }
     }
     let given = DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal);
@@ -175,12 +174,10 @@ pub fn inverse_forces(
     let left = &free * (wanted - (&acting * &free).tr_mul(&efforts));
     if left.amax() > MET * sizes.sum() {
         let name = spec.coords[left.icamax()];
-        return Err(Error::InvalidSetting {
-            what: "coordinates",
-            reason: format!(
-                "do not suffice for this motion: most of all it takes a force on `{name}`"
-            ),
-        });
+        return Err(Error::invalid(
+            "coordinates",
+            format!("do not suffice for this motion: most of all it takes a force on `{name}`"),
+        ));
     }
     let all = driven.iter().zip(efforts.iter());
     let effort = all.map(|(j, effort)| Effort {

@@ -78,10 +78,7 @@ pub fn kinematics(
         let reason = format!(
             "has the nonholonomic constraint `{name}`: positions depend on the way on which they are reached; integrate instead"
         );
-        return Err(Error::InvalidSetting {
-            what: "mechanism",
-            reason,
-        });
+        return Err(Error::invalid("mechanism", reason));
     }
     let held = held(spec, hold)?;
     let kept = Held {
@@ -115,14 +112,10 @@ impl Kinematics {
         if self.timed {
             let reason = "is not free where `t` is a drive: velocities are those in time, and the constraints say how fast all moves with it; \
                           leave it out";
-            return Err(Error::InvalidSetting {
-                what: "speed",
-                reason: reason.to_owned(),
-            });
+            return Err(Error::invalid("speed", reason));
         }
         if !speed.is_finite() {
-            let what = vec!["speed".to_owned()];
-            return Err(Error::NonFinite { what });
+            return Err(Error::non_finite("speed"));
         }
         for posture in &mut self.postures {
             posture.state.v.iter_mut().for_each(|v| *v *= speed);
@@ -221,10 +214,13 @@ impl fmt::Display for Limit {
             }
         });
         write!(f, "{}", drives.collect::<Vec<_>>().join(", "))?;
-        match self.constraints.len() {
-            0 => {}
-            1 => write!(f, ": {} holds it", quoted(&self.constraints))?,
-            _ => write!(f, ": {} hold it", quoted(&self.constraints))?,
+        if !self.constraints.is_empty() {
+            let hold = if self.constraints.len() == 1 {
+                "holds"
+            } else {
+                "hold"
+            };
+            write!(f, ": {} {hold} it", quoted(&self.constraints))?;
         }
         write!(
             f,

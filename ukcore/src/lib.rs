@@ -9,15 +9,13 @@
 //! - [`assemble`](assemble()): a consistent state from a rough guess; [`branches`](branches()): the other ways to put it together.
 //!   [`manifold::Projector`]: the nearest consistent state.
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
-//!   motions at once, in
-//!   lanes and on all cores.
+//!   motions at once, in lanes and on all cores.
 //! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests;
 //!   [`modes`](modes()): how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions.
 //!   [`kinematics`](kinematics()): swept drives, and limits of motion. [`inverse`](inverse()), [`inverse_forces`](inverse_forces()): what
 //!   it takes to drive it. [`verify!`]: a test of the emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
-//!   a mechanism may
-//!   say of itself besides.
+//!   a mechanism may say of itself besides.
 //!
 //! What most programs need is here at the root; the rest is in the modules, each with what belongs to it.
 //!

@@ -81,10 +81,10 @@ impl FromStr for Stabilisation {
             }
             _ => "it is `projection`, `baumgarte`, `baumgarte=ALPHA,BETA` or `none`",
         };
-        Err(Error::InvalidSetting {
-            what: "stabilise",
-            reason: format!("is `{text}`; {reason}"),
-        })
+        Err(Error::invalid(
+            "stabilise",
+            format!("is `{text}`; {reason}"),
+        ))
     }
 }
 
@@ -127,7 +127,7 @@ impl Projector {
     /// [`Error::OffConstraint`] with the constraints that cannot be met near q; [`Error::NonFinite`], [`Error::IndefiniteMass`],
     /// [`Error::WrongLength`].
     pub fn position(&mut self, t: f64, q: &mut [f64], v: &[f64]) -> Result<Correction, Error> {
-        self.check_lengths(q, v)?;
+        diagnose::check_lengths(&self.mechanism, q, v)?;
         self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.project(&at, q)
@@ -146,7 +146,7 @@ impl Projector {
     /// # Errors
     /// As [`Projector::position`].
     pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
-        self.check_lengths(q, v)?;
+        diagnose::check_lengths(&self.mechanism, q, v)?;
         self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
         self.manifold.project(&at, v)
@@ -242,12 +242,6 @@ impl Projector {
     /// Holds switch `switch` in `branch`, or follows it again.
     pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
         self.mechanism.hold(switch, branch);
-    }
-
-    fn check_lengths(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
-        let n = self.mechanism.spec().n();
-        diagnose::check_length("q", q.len(), n)?;
-        diagnose::check_length("v", v.len(), n)
     }
 }
 

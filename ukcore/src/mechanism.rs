@@ -208,6 +208,17 @@ impl<S: Scalar> Evaluated<S> {
         }
     }
 
+    /// All of them.
+    pub(crate) fn all(&self) -> [&[S]; 5] {
+        [
+            &self.mass,
+            &self.force,
+            &self.nonideal,
+            &self.jacobian,
+            &self.rhs,
+        ]
+    }
+
     /// The terms of `mech` at (t, q, q̇).
     pub(crate) fn dynamics<C: ?Sized + Equations<S>>(
         &mut self,

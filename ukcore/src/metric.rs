@@ -1,6 +1,7 @@
 //! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
 
 use crate::pinv::{axpy, dot};
+use crate::scan::or_one;
 
 /// A pivot d_k of the Cholesky factorisation counts as zero below this multiple of n ε M_kk.
 ///
@@ -189,10 +190,9 @@ impl Metric {
         }
         let units = || self.root.iter().zip(measure);
         let largest = units().fold(0.0_f64, |most, (root, unit)| most.max(root * unit));
-        let other = if largest > 0.0 { largest } else { 1.0 };
         for (root, unit) in self.root.iter_mut().zip(measure) {
             if *root == 0.0 {
-                *root = other / unit;
+                *root = or_one(largest) / unit;
             }
         }
         Ok(())

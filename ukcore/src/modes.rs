@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
+use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum::eigenvalues;
 
@@ -83,11 +84,13 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let together = TOGETHER * reduced.norm();
     let transposed = reduced.transpose();
     let mut shapes: Vec<Found> = Vec::new();
-    for value in &eigenvalues(&reduced).ok_or_else(unfound)? {
-        let part = eigenvector(&reduced, *value);
+    let reason = "has a linearised motion whose eigenvalues were not found";
+    let values = eigenvalues(&reduced).ok_or_else(|| Error::invalid("state", reason))?;
+    for value in &values {
+        let part = eigenvector(&reduced, *value, 0);
         // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
         // as is left of the equation, where eigenvalues coincide.
-        let known = eigenvector(&transposed, value.conj()).dotc(&part).norm();
+        let known = eigenvector(&transposed, value.conj(), 0).dotc(&part).norm();
         let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * *value;
         let rounding = rounding.max(left.norm());
         let told = |x: f64| {
@@ -106,7 +109,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         if frequency < 0.0 {
             continue;
         }
-        let again = |number| positions(&tangent, &eigenvector_from(&reduced, *value, number));
+        let again = |number| positions(&tangent, &eigenvector(&reduced, *value, number));
         let lasts = growth != 0.0 || frequency != 0.0;
         let same = |one: &Found| lasts && (one.value - value).norm() <= together;
         let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
@@ -195,23 +198,13 @@ fn share_out(
     Some(other)
 }
 
-fn unfound() -> Error {
-    Error::InvalidSetting {
-        what: "state",
-        reason: "has a linearised motion whose eigenvalues were not found".into(),
-    }
-}
-
 /// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
 fn flow(found: &Linearisation, units: &DVector<f64>) -> (DMatrix<f64>, f64) {
     let n = units.len();
     let scaled =
         |slopes: &[f64]| DMatrix::from_fn(n, n, |i, j| units[j] / units[i] * slopes[j * n + i]);
     let (by_position, by_velocity) = (scaled(&found.by_position), scaled(&found.by_velocity));
-    let pace = match by_position.norm().sqrt().max(by_velocity.norm()) {
-        pace if pace > 0.0 => pace,
-        _ => 1.0,
-    };
+    let pace = or_one(by_position.norm().sqrt().max(by_velocity.norm()));
     let mut flow = DMatrix::zeros(2 * n, 2 * n);
     flow.view_mut((0, n), (n, n)).fill_diagonal(1.0);
     flow.view_mut((n, 0), (n, n))
@@ -349,12 +342,12 @@ fn steady(
     for (i, (a, unit)) in accelerations.enumerate() {
         if (a / unit).abs() > REST * size {
             let name = mech.spec().coords[i];
-            return Err(Error::InvalidSetting {
-                what: "state",
-                reason: format!(
+            return Err(Error::invalid(
+                "state",
+                format!(
                     "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
                 ),
-            });
+            ));
         }
     }
     Ok(())
@@ -393,17 +386,9 @@ fn tangent(
     null_space(rows, units)
 }
 
-/// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
-fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
-    eigenvector_from(matrix, value, 0)
-}
-
-/// [`eigenvector`] from the beginning of this number: of an eigenvalue that counts several times each leads to another one.
-fn eigenvector_from(
-    matrix: &DMatrix<f64>,
-    value: Complex<f64>,
-    number: usize,
-) -> DVector<Complex<f64>> {
+/// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration from the beginning of this number: of an eigenvalue that
+/// counts several times each leads to another one.
+fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
     // Beside the eigenvalue, by what rounding leaves unknown of it or a little more, so that nothing is divided by 0.
     // Farther off where eigenvalues coincide, or the one that rounding puts nearest is the only one that is found.

@@ -7,12 +7,21 @@ use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
 use crate::random::Random;
-use crate::scan::{all_finite, largest};
+use crate::scan::{all_finite, largest, or_one};
 
 /// Displacements are this part of the largest coordinate, and times are as far off; half as much each time it is too far.
 const SPREAD: f64 = 0.2;
 /// So often at most: then the state itself is taken.
 const HALVINGS: i32 = 24;
+
+/// States near one that tell what holds at it alone.
+const NEIGHBOURS: usize = 3;
+
+/// Some states [near](nearby) `from`, as far as they are found; the same each time.
+pub(crate) fn neighbours(mech: &Prepared, from: &State) -> impl Iterator<Item = State> {
+    let mut random = Random::new(0x5eed);
+    (0..NEIGHBOURS).filter_map(move |_| nearby(mech, from, &mut random))
+}
 
 /// A random state on the constraints near `from`, which is on them or nearly so: displaced in the directions that the constraints allow,
 /// with other velocities, and at another time where constraints depend on time. `None` where none is found at which all terms of the
@@ -23,10 +32,7 @@ pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Opti
     let units = units(&mass_matrix(mech, from));
     let free = null_space(constraint_matrix(mech, from), &units);
     let mut projector = Projector::new(mech);
-    let size = match largest(&from.q).max(projector.length(from.t, &from.q, &from.v)) {
-        size if size > 0.0 => size,
-        _ => 1.0,
-    };
+    let size = or_one(largest(&from.q).max(projector.length(from.t, &from.q, &from.v)));
     let shares = DVector::from_vec(random.vector(free.ncols()));
     let mut way = (free * shares).component_mul(&units);
     let longest = way.amax();
@@ -57,13 +63,5 @@ pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Opti
 pub(crate) fn is_finite(mech: &Prepared, state: &State) -> bool {
     let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
     terms.dynamics(mech, state.t, &state.q, &state.v);
-    let Evaluated {
-        mass,
-        force,
-        nonideal,
-        jacobian,
-        rhs,
-    } = &terms;
-    let all = [mass, force, nonideal, jacobian, rhs];
-    all.into_iter().all(|values| all_finite(values))
+    terms.all().into_iter().all(all_finite)
 }

@@ -171,12 +171,12 @@ impl Plan {
         paragraph(f, &text)?;
         let coord = |i: usize| spec.coords[i];
         let row = |i: usize| spec.constraints[i].name;
+        let rows = |rows: &[usize]| rows.iter().map(|c| row(*c)).collect::<Vec<_>>();
         if !solve.regular.is_empty() {
-            let names: Vec<&str> = solve.regular.iter().map(|c| row(*c)).collect();
             let text = format!(
                 "M alone is singular, at any state or at some: for the row a of A of each of {}, μ aᵀa was added to M and μ aᵀb to Q, with μ the trace \
                  of M over |a|². It leaves q̈ as it is.",
-                names.join(" ")
+                rows(solve.regular).join(" ")
             );
             paragraph(f, &text)?;
         }
@@ -190,19 +190,17 @@ impl Plan {
             paragraph(f, &text)?;
         }
         if !solve.turned.is_empty() {
-            let names: Vec<&str> = solve.turned.iter().map(|c| row(*c)).collect();
             let text = format!(
                 "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at right angles, \
                  so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
-                shortened(&names)
+                shortened(&rows(solve.turned))
             );
             paragraph(f, &text)?;
         }
         if !solve.solved.is_empty() {
-            let names: Vec<&str> = solve.solved.iter().map(|c| row(*c)).collect();
             let text = format!(
                 "{} are solved for such rates of one body each beforehand, which then stand alone in them.",
-                shortened(&names)
+                shortened(&rows(solve.solved))
             );
             paragraph(f, &text)?;
         }
@@ -289,23 +287,17 @@ impl Plan {
             item(f, &text)?;
         }
         if !solve.met.is_empty() {
-            let names = solve.met.iter().map(|c| self.spec.constraints[*c].name);
-            let names: Vec<&str> = names.collect();
             let text = format!(
                 "met by q̈ to rounding, since they act on inertia that may vanish: the rows of {}",
-                names.join(" ")
+                self.spec.constraint_names(solve.met).join(" ")
             );
             item(f, &text)?;
         }
         if !solve.redundant.is_empty() {
-            let names = solve.redundant.iter();
-            let names: Vec<String> = names
-                .map(|row| format!("`{}`", self.spec.constraints[*row].name))
-                .collect();
             let text = format!(
-                "{} follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, those of whose \
+                "`{}` follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, those of whose \
                  pivot and right-hand side nothing is left but rounding, or drift off the constraints",
-                names.join(" ")
+                self.spec.constraint_names(solve.redundant).join("` `")
             );
             item(f, &text)?;
         }
@@ -497,7 +489,8 @@ impl Display for Picture {
     }
 }
 
-fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+/// How many characters the longest of `names` has.
+pub(crate) fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
     names.map(|name| name.chars().count()).max().unwrap_or(0)
 }
 

@@ -10,7 +10,7 @@ use crate::scalar::{Dual, Scalar, functions};
 ///
 /// It sees what derivatives do not: in φ = (x − a)² − a² at x = 0 the coordinate is exact, but 2a² is rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rounded {
+pub(crate) struct Rounded {
     value: f64,
     error: f64,
 }
@@ -123,12 +123,6 @@ impl Scalar for Rounded {
     }
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         if a.value <= b.value { then } else { otherwise }
-    }
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-    fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        c - self * b
     }
     fn sin_cos(self) -> (Self, Self) {
         (self.unary(Scalar::sin), self.unary(Scalar::cos))

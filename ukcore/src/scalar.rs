@@ -117,9 +117,13 @@ pub trait Scalar:
     /// −1, 0 or 1; NaN for NaN (unlike `f64::signum`, sign(0) = 0).
     fn sign(self) -> Self;
     /// The smaller one.
-    fn min(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self {
+        Self::select_le(self, other, self, other)
+    }
     /// The larger one.
-    fn max(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self {
+        Self::select_le(self, other, other, self)
+    }
     /// √(x² + y²).
     fn hypot(self, other: Self) -> Self;
     /// xⁿ for an integer n.
@@ -348,12 +352,6 @@ impl<S: Scalar, E: Slope<S>> Scalar for Dual<S, E> {
     }
     fn sign(self) -> Self {
         self.chain(self.re.sign(), S::from_f64(0.0))
-    }
-    fn min(self, o: Self) -> Self {
-        Self::select_le(self, o, self, o)
-    }
-    fn max(self, o: Self) -> Self {
-        Self::select_le(self, o, o, self)
     }
     fn hypot(self, o: Self) -> Self {
         let r = self.re.hypot(o.re);

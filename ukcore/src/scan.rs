@@ -72,6 +72,11 @@ pub(crate) fn reduce<S: Scalar>(
     join(s[0], rest)
 }
 
+/// x, or 1 where it is not positive: a size to compare with.
+pub(crate) fn or_one(x: f64) -> f64 {
+    if x > 0.0 { x } else { 1.0 }
+}
+
 /// 0 where each |d_j| is at most `share` (|x_j| + `least`), else more. Passes over NaN in an `f64`.
 #[inline]
 pub(crate) fn excess<S: Scalar>(d: &[S], x: &[S], share: S, least: S) -> S {

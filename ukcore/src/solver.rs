@@ -164,8 +164,7 @@ impl Solver {
         out: &mut [f64],
     ) -> Result<(), Error> {
         diagnose::check_length("out", out.len(), self.n)?;
-        diagnose::check_length("q", q.len(), self.n)?;
-        diagnose::check_length("v", v.len(), self.n)?;
+        diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
@@ -205,10 +204,16 @@ impl Solver {
         self.dropping.certificate = certificate;
         let good = self.dropping.accepted.has(certificate) && all_finite(out);
         if good {
-            self.work.evaluations += 1;
-            self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+            self.count();
         }
         good
+    }
+
+    /// Takes note of a solution by the straight line.
+    #[inline]
+    fn count(&mut self) {
+        self.work.evaluations += 1;
+        self.full = self.dropping.rank(self.m).unwrap_or(self.m);
     }
 
     /// Accelerations where the straight line was tried, and left them in `out` for refinement, or there is none.
@@ -226,8 +231,7 @@ impl Solver {
         if self.dropping.is_uneven() && all_finite(out) {
             self.here.dynamics(&self.mechanism, t, q, v);
             if self.is_even() {
-                self.work.evaluations += 1;
-                self.full = self.dropping.rank(self.m).unwrap_or(self.m);
+                self.count();
                 return Ok(());
             }
         }
@@ -414,8 +418,7 @@ impl Solver {
 
     /// Evaluates, factors, and decides the rank.
     fn decide(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Decided, Error> {
-        diagnose::check_length("q", q.len(), self.n)?;
-        diagnose::check_length("v", v.len(), self.n)?;
+        diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
@@ -428,22 +431,11 @@ impl Solver {
             baumgarte.apply(&self.position, &self.rate, &mut self.rhs);
         }
         let terms = &self.here;
-        let evaluated = [
-            &terms.mass,
-            &terms.force,
-            &terms.nonideal,
-            &terms.jacobian,
-            &self.rhs,
-        ];
-        let given = t.is_finite() && all_finite(q) && all_finite(v);
-        if !(given && evaluated.iter().all(|x| all_finite(x))) {
-            return Err(
-                diagnose::bad_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
-                    diagnose::non_finite_terms(self.mechanism.spec(), terms, &self.rhs)
-                }),
-            );
+        let given = t.is_finite() && [q, v, &self.rhs].into_iter().all(all_finite);
+        if !(given && terms.all().into_iter().all(all_finite)) {
+            let terms = || diagnose::non_finite_terms(self.mechanism.spec(), terms, &self.rhs);
+            return Err(diagnose::bad_input(&self.mechanism, t, q, v).unwrap_or_else(terms));
         }
-        let terms = &self.here;
         let measure = &mut self.dense.measure;
         measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
         let formula = self.factor()?;
@@ -544,13 +536,13 @@ impl Solver {
 pub(crate) fn mass_error(spec: &Spec, fault: MassFault) -> Error {
     let name = |i: usize| spec.coords[i];
     match fault {
-        MassFault::Singular(i) => Error::InvalidSetting {
-            what: "formula",
-            reason: format!(
+        MassFault::Singular(i) => Error::invalid(
+            "formula",
+            format!(
                 "UdwadiaKalaba (eq. 13) needs a regular mass matrix, but it is singular at `{}`; take Auto or UdwadiaPhohomsiri",
                 name(i)
             ),
-        },
+        ),
         MassFault::Indefinite(i) => Error::IndefiniteMass {
             coordinates: vec![name(i).to_owned()],
         },

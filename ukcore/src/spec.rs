@@ -196,6 +196,19 @@ pub struct SwitchSpec {
     pub length: bool,
 }
 
+impl SwitchSpec {
+    /// The terms that contain some of `switches`, each once.
+    pub(crate) fn terms<'a>(switches: impl Iterator<Item = &'a SwitchSpec>) -> Vec<String> {
+        let mut terms: Vec<String> = Vec::new();
+        for term in switches.flat_map(|switch| switch.terms) {
+            if !terms.iter().any(|known| known == term) {
+                terms.push((*term).to_owned());
+            }
+        }
+        terms
+    }
+}
+
 /// A constraint.
 #[derive(Debug)]
 pub struct ConstraintSpec {
@@ -335,15 +348,9 @@ impl Spec {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn coordinates_of(&self, name: &str) -> Result<Vec<usize>, Error> {
-        let coords = self.coords.iter().enumerate();
-        let found: Vec<usize> = coords
-            .filter(|(_, c)| belongs(c, name))
-            .map(|(j, _)| j)
-            .collect();
-        match found.is_empty() {
-            true => Ok(vec![self.coordinate_index(name)?]),
-            false => Ok(found),
-        }
+        let coords = self.coords.iter().copied();
+        positions(coords, |c| belongs(c, name))
+            .map_or_else(|| Ok(vec![self.coordinate_index(name)?]), Ok)
     }
 
     /// Index of the coordinate called `name`.
@@ -367,15 +374,15 @@ impl Spec {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn constraint_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
-        let rows = self.constraints.iter().enumerate();
-        let rows = rows
-            .filter(|(_, c)| belongs(c.name, name))
-            .map(|(row, _)| row);
-        let rows: Vec<usize> = rows.collect();
-        match rows.is_empty() {
-            true => Ok(vec![self.constraint_index(name)?]),
-            false => Ok(rows),
-        }
+        let rows = self.constraints.iter().map(|c| c.name);
+        positions(rows, |row| belongs(row, name))
+            .map_or_else(|| Ok(vec![self.constraint_index(name)?]), Ok)
+    }
+
+    /// Names of the constraints with these indices.
+    pub(crate) fn constraint_names(&self, rows: &[usize]) -> Vec<String> {
+        let names = rows.iter().map(|row| self.constraints[*row].name);
+        names.map(str::to_owned).collect()
     }
 
     /// Index of the constraint called `name`.
@@ -401,9 +408,17 @@ fn members<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<Vec<u
         n.strip_prefix(name)
             .is_some_and(|rest| rest.starts_with('[') && !rest.contains('.'))
     };
-    let members = names.enumerate().filter(|(_, n)| member(n));
-    let members: Vec<usize> = members.map(|(i, _)| i).collect();
-    (!members.is_empty()).then_some(members)
+    positions(names, member)
+}
+
+/// Positions of those of `names` that are wanted, if there are any.
+fn positions<'a>(
+    names: impl Iterator<Item = &'a str>,
+    wanted: impl Fn(&str) -> bool,
+) -> Option<Vec<usize>> {
+    let found = names.enumerate().filter(|(_, name)| wanted(name));
+    let found: Vec<usize> = found.map(|(i, _)| i).collect();
+    (!found.is_empty()).then_some(found)
 }
 
 /// The position of `name` among `names`, which are of this `kind`.

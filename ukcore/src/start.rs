@@ -83,8 +83,7 @@ impl Chosen {
                 return Err(Error::unknown_name("start option", name, &mut known));
             }
             if !value.is_finite() {
-                let what = vec![format!("start option {name}")];
-                return Err(Error::NonFinite { what });
+                return Err(Error::non_finite(format!("start option {name}")));
             }
         }
         let value = |o: &StartOption| options.get(o.name).unwrap_or(o.default);
@@ -118,11 +117,7 @@ impl Prepared {
         let (spec, n) = (self.spec(), self.spec().n());
         let chosen = Chosen::among(spec.starts, name, options)?;
         let place = spec.starts.iter().position(|s| s.name == name);
-        let guess = State {
-            t: 0.0,
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-        };
+        let guess = State::at_rest(0.0, vec![0.0; n]);
         let held = Held {
             untold: (0..n).collect(),
             untold_rates: (0..n).collect(),

@@ -247,29 +247,24 @@ impl Trajectory {
     /// # Errors
     /// [`Error::InvalidSetting`] if the interpolant was not kept or `t` is outside of the run; what projection can report.
     pub fn at(&self, t: f64) -> Result<State, Error> {
-        let invalid = |what, reason| Err(Error::InvalidSetting { what, reason });
         let Some(segments) = &self.segments else {
             let reason = "was not asked for, so there is no state between the samples; build the simulation with `.dense()`";
-            return invalid("dense", reason.to_owned());
+            return Err(Error::invalid("dense", reason));
         };
         let Some(end) = &self.end else {
-            return invalid("t", format!("is {t}, but the run did not start"));
+            let reason = format!("is {t}, but the run did not start");
+            return Err(Error::invalid("t", reason));
         };
         let (low, high) = (self.start.min(end.t), self.start.max(end.t));
         if !(low..=high).contains(&t) {
-            return invalid("t", format!("is {t}, but the run covers {low} to {high}"));
+            let reason = format!("is {t}, but the run covers {low} to {high}");
+            return Err(Error::invalid("t", reason));
         }
         if t == end.t {
             return Ok(end.clone());
         }
-        let forward = end.t >= self.start;
-        let begun = |s: &Segment| {
-            if forward {
-                s.t_old() <= t
-            } else {
-                s.t_old() >= t
-            }
-        };
+        let sign = if end.t < self.start { -1.0 } else { 1.0 };
+        let begun = |s: &Segment| sign * s.t_old() <= sign * t;
         let index = segments.partition_point(begun).saturating_sub(1);
         let Some(segment) = segments.get(index) else {
             return Ok(end.clone());
@@ -371,10 +366,8 @@ impl Trajectory {
         let mut solver = Solver::new(&self.mechanism, self.options);
         let mut acceleration = |s: Sample<'_>| {
             let mut out = vec![0.0; s.q.len()];
-            match solver.acceleration(s.t, s.q, s.v, &mut out) {
-                Ok(()) => Ok(out),
-                Err(error) => Err(s.locate(error)),
-            }
+            let solved = solver.acceleration(s.t, s.q, s.v, &mut out);
+            solved.map_or_else(|error| Err(s.locate(error)), |()| Ok(out))
         };
         self.samples().map(&mut acceleration).collect()
     }

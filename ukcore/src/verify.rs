@@ -135,12 +135,8 @@ fn values<M: Mechanism, S: Scalar>(mech: &Prepared) -> Vec<S> {
     values
 }
 
-fn constant(x: f64) -> Dual {
-    Dual::from_f64(x)
-}
-
 fn constants(x: &[f64]) -> Vec<Dual> {
-    x.iter().map(|x| constant(*x)).collect()
+    x.iter().map(|x| Dual::from_f64(*x)).collect()
 }
 
 /// `x` with the derivative `slope`.
@@ -333,12 +329,7 @@ impl<'a> Verification<'a> {
 
 impl fmt::Display for Verified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Verified {
-            name,
-            states,
-            numbers,
-            worst,
-        } = self;
+        let (name, states, numbers, worst) = (self.name, self.states, self.numbers, self.worst);
         write!(
             f,
             "`{name}` is what it declares: {numbers} numbers at {states} states, the worst at {worst:.1e} of what is allowed"

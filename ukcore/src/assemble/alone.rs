@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::interval::Interval;
 use crate::manifold::{At, Part};
 use crate::mechanism::{Equations, Evaluated, Prepared};
+use crate::scan::or_one;
 
 /// Boxes are no larger, so that sums over them are finite.
 const LARGEST: f64 = 1e100;
@@ -67,10 +68,7 @@ impl Alone {
         };
         let (mut middles, mut radii) = (matrix(Interval::middle), matrix(Interval::radius));
         for (mut row, mut radii) in middles.row_iter_mut().zip(radii.row_iter_mut()) {
-            let norm = match row.norm() {
-                norm if norm > 0.0 => norm,
-                _ => 1.0,
-            };
+            let norm = or_one(row.norm());
             row /= norm;
             radii /= norm;
         }

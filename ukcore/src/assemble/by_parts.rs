@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::alone::Alone;
 use super::search::Search;
 use crate::manifold::{At, Manifold, Part};
+use crate::mechanism::Prepared;
 use crate::random::Random;
 
 /// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
@@ -341,17 +342,20 @@ impl<'a> ByParts<'a> {
         beginning: usize,
         random: &mut Random,
     ) -> Option<Found> {
-        let angles = self.at.mech.spec().structure.angles;
         let mut place = x.to_vec();
         if let Some(share) = SHAKES.get(beginning) {
             shake(&mut place, &part.unknowns, |j| share * self.extents[j]);
         } else {
             let share = ((beginning - SHAKES.len()) % ROUND + 1) as f64 / ROUND as f64;
-            for j in &part.unknowns {
-                let angle = angles.contains(j);
-                let reach = if angle { PI } else { self.extents[*j] };
-                place[*j] += share * reach * random.signed();
-            }
+            let mech = self.at.mech;
+            scatter(
+                mech,
+                &mut place,
+                &part.unknowns,
+                share,
+                &self.extents,
+                random,
+            );
         }
         let place = self.search(part, place)?;
         Some(self.found(part, place))
@@ -407,8 +411,24 @@ fn are_one(manifold: &Manifold, all: &[usize], x: &[f64], y: &[f64]) -> bool {
         .all(|j| (x[*j] - y[*j]).abs() <= most * manifold.unit(*j))
 }
 
+/// Moves the coordinates `free` at random, by up to a `share` of half a turn, or of how large they are.
+pub(crate) fn scatter(
+    mech: &Prepared,
+    q: &mut [f64],
+    free: &[usize],
+    share: f64,
+    extents: &[f64],
+    random: &mut Random,
+) {
+    let angles = mech.spec().structure.angles;
+    for j in free {
+        let reach = if angles.contains(j) { PI } else { extents[*j] };
+        q[*j] += share * reach * random.signed();
+    }
+}
+
 /// How much coordinate `j` counts in choosing between solutions.
-fn weight(untold: &[usize], j: usize) -> f64 {
+pub(crate) fn weight(untold: &[usize], j: usize) -> f64 {
     if untold.contains(&j) { UNTOLD } else { 1.0 }
 }
 

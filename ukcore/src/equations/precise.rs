@@ -29,13 +29,7 @@ pub fn accelerations<M: Mechanism>(
     let mut terms = Evaluated::new(n, m);
     let prepared = mechanism.prepared::<DoubleDouble>();
     terms.dynamics(&prepared, DoubleDouble::from_f64(t), &q, &v);
-    let Evaluated {
-        mass,
-        force,
-        nonideal,
-        jacobian,
-        rhs,
-    } = terms;
+    let (mass, jacobian) = (&terms.mass, &terms.jacobian);
     let size = n + m;
     let mut rows = vec![vec![DoubleDouble::from_f64(0.0); size + 1]; size];
     for i in 0..n {
@@ -46,10 +40,10 @@ pub fn accelerations<M: Mechanism>(
             rows[i][n + c] = jacobian[i * m + c];
             rows[n + c][i] = jacobian[i * m + c];
         }
-        rows[i][size] = force[i] + nonideal[i];
+        rows[i][size] = terms.force[i] + terms.nonideal[i];
     }
     for c in 0..m {
-        rows[n + c][size] = rhs[c];
+        rows[n + c][size] = terms.rhs[c];
     }
     solve(rows)?.into_iter().take(n).collect()
 }

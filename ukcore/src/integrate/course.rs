@@ -181,8 +181,7 @@ impl Course {
         let reason = format!(
             "is {t:e}, so far that a first step of {step:.1e} is nothing beside it; take a nearer one"
         );
-        let what = "t_end";
-        Error::InvalidSetting { what, reason }
+        Error::invalid("t_end", reason)
     }
 
     /// Takes note of a failure at a state of the step in hand; returns it as its cause.

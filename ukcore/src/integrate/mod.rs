@@ -109,10 +109,7 @@ impl FromStr for Method {
             },
             _ => "it is `dop853`, `dopri5`, `radau5` or `rattle=STEP`",
         };
-        Err(Error::InvalidSetting {
-            what: "method",
-            reason: format!("is `{text}`; {reason}"),
-        })
+        Err(Error::invalid("method", format!("is `{text}`; {reason}")))
     }
 }
 

@@ -290,10 +290,6 @@ impl Scheme for Radau {
         Ok(if solved { 0.0 } else { f64::NAN })
     }
 
-    fn interpolate(&mut self, _: &mut Equations<'_>, _: Trial) -> Result<(), Cause> {
-        Ok(())
-    }
-
     fn dense(&self) -> &[f64] {
         &self.dense
     }

@@ -81,8 +81,7 @@ impl Rattle {
         if let Err(error) = problem.project_along(t, &self.base, q, &mut self.shift) {
             let step = self.step.abs();
             let reason = format!("is {step}, which is too long here: {error}");
-            let what = "step";
-            let error = Error::InvalidSetting { what, reason };
+            let error = Error::invalid("step", reason);
             return Err(Trouble::cause(equations.at(s, &self.end), error));
         }
         add(v, v_lost, h.recip(), &self.shift);

@@ -134,7 +134,10 @@ pub(super) trait Scheme {
     fn close(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause>;
 
     /// Makes the coefficients of the interpolant of the closed step, if closing did not, for [`dense`](Scheme::dense).
-    fn interpolate(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<(), Cause>;
+    fn interpolate(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<(), Cause> {
+        let _ = (equations, step);
+        Ok(())
+    }
 
     /// Coefficients of the interpolant, rows as [`Interpolant`](super::dense::Interpolant) wants them.
     fn dense(&self) -> &[f64];

@@ -253,12 +253,7 @@ impl Pace {
 
 /// [`Error::Chattering`] about `switches`, with each of their terms once.
 fn chattering<'a>(step: f64, switches: impl Iterator<Item = &'a SwitchSpec>) -> Error {
-    let mut terms: Vec<String> = Vec::new();
-    for term in switches.flat_map(|switch| switch.terms) {
-        if !terms.iter().any(|known| known == term) {
-            terms.push((*term).to_owned());
-        }
-    }
+    let terms = SwitchSpec::terms(switches);
     Error::Chattering { step, terms }
 }
 

@@ -59,15 +59,8 @@ impl Curve<'_> {
             before = mean;
             aside *= 0.5;
         }
-        let (t, q) = (
-            self.time_at(s),
-            guess.as_slice()[..guess.len() - 1].to_vec(),
-        );
-        Err(stuck(State {
-            t,
-            v: vec![0.0; q.len()],
-            q,
-        }))
+        let q = guess.as_slice()[..guess.len() - 1].to_vec();
+        Err(stuck(State::at_rest(self.time_at(s), q)))
     }
 
     /// Whether two means are the same but for small errors, of which that of the nearer one is far smaller.
@@ -95,11 +88,7 @@ impl Curve<'_> {
     ) -> Result<Option<Posture>, Error> {
         let n = self.mech.spec().n();
         let mut mean = Posture {
-            state: State {
-                t: self.time_at(s),
-                q: vec![0.0; n],
-                v: vec![0.0; n],
-            },
+            state: State::at_rest(self.time_at(s), vec![0.0; n]),
             acceleration: vec![0.0; n],
         };
         for (k, share) in SHARES.iter().enumerate() {

@@ -12,8 +12,8 @@ use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
 use crate::modes::{mass_matrix, units};
-use crate::nearby::nearby;
-use crate::random::Random;
+use crate::nearby::neighbours;
+use crate::scan::or_one;
 
 /// How fast s changes along the curve, below which a drive stands still: at a dead centre positions are known to the root of rounding.
 pub(super) const STILL: f64 = 1e-7;
@@ -21,21 +21,12 @@ pub(super) const STILL: f64 = 1e-7;
 const LONG: f64 = 100.0;
 /// A share of a limit that is rounding.
 const SHARE: f64 = 1e-6;
-/// States beside one that are looked at, to tell what holds at it alone.
-const NEIGHBOURS: usize = 3;
-
-fn invalid<T>(what: &'static str, reason: String) -> Result<T, Error> {
-    Err(Error::InvalidSetting { what, reason })
-}
 
 /// There is no smooth way on at `state`.
 pub(super) fn stuck(state: State) -> Error {
     let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end \
                   the sweep before it";
-    state.locate(Error::InvalidSetting {
-        what: "drives",
-        reason: reason.to_owned(),
-    })
+    state.locate(Error::invalid("drives", reason))
 }
 
 /// What is swept.
@@ -63,20 +54,22 @@ impl Drive {
                     let reason = format!(
                         "have `{name}`, an output: declare a coordinate for it, which a holonomic constraint keeps equal to it, and drive that"
                     );
-                    return invalid("drives", reason);
+                    return Err(Error::invalid("drives", reason));
                 }
                 (_, Err(unknown)) => return Err(unknown),
             };
             let known = coordinate.map_or("t", |j| spec.coords[j]);
             if !(range.start.is_finite() && range.end.is_finite()) {
-                let what = vec![format!("range of {known}")];
-                return Err(Error::NonFinite { what });
+                return Err(Error::non_finite(format!("range of {known}")));
             }
             if all.iter().any(|other| other.coordinate == coordinate) {
-                return invalid("drives", format!("have `{known}` twice"));
+                return Err(Error::invalid("drives", format!("have `{known}` twice")));
             }
             if coordinate.is_some_and(|j| held.contains(&j)) {
-                return invalid("hold", format!("has `{known}`, which is a drive"));
+                return Err(Error::invalid(
+                    "hold",
+                    format!("has `{known}`, which is a drive"),
+                ));
             }
             all.push(Drive {
                 coordinate,
@@ -84,17 +77,15 @@ impl Drive {
                 range: range.clone(),
             });
         }
-        match all.first() {
-            None => invalid("drives", "are none; name a coordinate, or `t`".to_owned()),
-            Some(first) if first.range.start == first.range.end => invalid(
-                "drives",
-                format!(
-                    "do not move: `{}` goes from {} to {1}",
-                    first.name, first.range.start
-                ),
-            ),
-            Some(_) => Ok(all),
+        let Some(Drive { name, range, .. }) = all.first() else {
+            let reason = "are none; name a coordinate, or `t`";
+            return Err(Error::invalid("drives", reason));
+        };
+        if range.start == range.end {
+            let reason = format!("do not move: `{name}` goes from {0} to {0}", range.start);
+            return Err(Error::invalid("drives", reason));
         }
+        Ok(all)
     }
 
     fn gain(&self) -> f64 {
@@ -118,7 +109,10 @@ impl<'a> Sweep<'a> {
     /// Postures and limits, in the order of the sweep.
     pub(super) fn postures(&self, intervals: usize) -> Result<(Vec<Posture>, Vec<Limit>), Error> {
         if intervals == 0 {
-            return invalid("intervals", "are none; one at least is needed".to_owned());
+            return Err(Error::invalid(
+                "intervals",
+                "are none; one at least is needed",
+            ));
         }
         let (state, from) = match self.part_done() {
             Some(part) => (self.start.clone(), part),
@@ -134,6 +128,7 @@ impl<'a> Sweep<'a> {
             (0..=intervals).partition(|k| part(*k) < begin.s() || begin.s() >= 1.0);
         let (mut postures, mut limits) = (Vec::new(), Vec::new());
         for (mut wanted, up) in [(before, false), (after, true)] {
+            let sense = if up { 1.0 } else { -1.0 };
             if up {
                 postures.reverse();
                 wanted.reverse();
@@ -149,13 +144,7 @@ impl<'a> Sweep<'a> {
             curve.gauge(&path);
             let limit = (path.end == End::Turned).then(|| path.last().s());
             for (index, b) in path.places.iter().enumerate().skip(1) {
-                let within = |k: usize| {
-                    if up {
-                        part(k) <= b.s()
-                    } else {
-                        part(k) >= b.s()
-                    }
-                };
+                let within = |k: usize| sense * part(k) <= sense * b.s();
                 while let Some(k) = wanted.pop_if(|k| within(*k)) {
                     if limit.is_some_and(|limit| (part(k) - limit).abs() <= AT) {
                         continue;
@@ -206,16 +195,15 @@ impl<'a> Sweep<'a> {
         curve.gauge(&path);
         match path.end {
             End::Stuck => Err(stuck(self.state(&curve, path.last()))),
-            End::Turned => invalid(
-                "drives",
-                format!(
-                    "do not come from the start to the begin of the sweep: {}",
-                    self.limit(&curve, path.last())
-                ),
-            ),
+            End::Turned => {
+                let limit = self.limit(&curve, path.last());
+                let reason =
+                    format!("do not come from the start to the begin of the sweep: {limit}");
+                Err(Error::invalid("drives", reason))
+            }
             End::Arrived => match curve.posture(&path, path.places.len() - 2, 1.0, 1.0)? {
                 Some(posture) => Ok(posture.state),
-                None => invalid("drives", "begin at a dead centre".to_owned()),
+                None => Err(Error::invalid("drives", "begin at a dead centre")),
             },
         }
     }
@@ -266,8 +254,7 @@ impl<'a> Sweep<'a> {
         let gains = gains.fold(0.0_f64, f64::hypot);
         let size = x.rows(0, n).component_div(&curve.units.rows(0, n)).norm();
         let (size, moved) = (size.max(gains), way.rows(0, n).norm());
-        let long = if size > 0.0 { size } else { 1.0 };
-        if way[n].abs() * long <= STILL * moved {
+        if way[n].abs() * or_one(size) <= STILL * moved {
             return Err(self.still(curve, state, &rows));
         }
         let moved = moved / way[n].abs();
@@ -288,9 +275,7 @@ impl<'a> Sweep<'a> {
     /// The rows at other consistent states, beside `state`.
     fn beside(&self, curve: &Curve<'_>, state: &State) -> Vec<Rows> {
         let n = self.mech.spec().n();
-        let mut random = Random::new(0x5eed);
-        let states = (0..NEIGHBOURS).filter_map(|_| nearby(self.mech, state, &mut random));
-        let others = states.filter(|there| there.q != state.q);
+        let others = neighbours(self.mech, state).filter(|there| there.q != state.q);
         let rows = others.map(|there| {
             let x = DVector::from_vec(there.q).insert_row(n, 0.0);
             let time = (there.t, curve.time.1);
@@ -315,21 +300,19 @@ impl<'a> Sweep<'a> {
             free.nrows() == 1 && free[(0, n)].abs() <= SHARE * free.row(0).columns(0, n).norm()
         };
         let beside = self.beside(curve, state);
-        let (what, reason) = if !beside.is_empty() && beside.iter().all(held) {
-            let by: Vec<String> = self.holding(rows).map(|(name, _)| name).collect();
-            let reason = format!(
-                "do not move: {} {} {names} wherever the mechanism goes; drive `{leader}`",
-                quoted(&by),
-                if by.len() == 1 { "holds" } else { "hold" }
-            );
-            ("drives", reason)
-        } else {
+        if beside.is_empty() || !beside.iter().all(held) {
             let reason = format!(
                 "is a dead centre: {names} would stand still while `{leader}` moves; begin beside it, or drive `{leader}`"
             );
-            ("start", reason)
-        };
-        Error::InvalidSetting { what, reason }
+            return Error::invalid("start", reason);
+        }
+        let by: Vec<String> = self.holding(rows).map(|(name, _)| name).collect();
+        let hold = if by.len() == 1 { "holds" } else { "hold" };
+        let by = quoted(&by);
+        let reason = format!(
+            "do not move: {by} {hold} {names} wherever the mechanism goes; drive `{leader}`"
+        );
+        Error::invalid("drives", reason)
     }
 
     /// The constraints that add up to a force on the drives where these stand still, with their numbers.
@@ -351,20 +334,14 @@ impl<'a> Sweep<'a> {
         let spec = self.mech.spec();
         let free = rows.free();
         if free.nrows() == 0 {
-            let reason = "and held coordinates are more than the degrees of freedom, and do not agree: let one of them go".to_owned();
-            return Error::InvalidSetting {
-                what: "drives",
-                reason,
-            };
+            let reason = "and held coordinates are more than the degrees of freedom, and do not agree: let one of them go";
+            return Error::invalid("drives", reason);
         }
         let beside = self.beside(curve, state);
         let singular = beside.iter().any(|there| there.rank > rows.rank);
         if singular {
             let reason = "is a singular position, in which branches may meet: it does not tell which is meant; begin beside it";
-            return Error::InvalidSetting {
-                what: "start",
-                reason: reason.to_owned(),
-            };
+            return Error::invalid("start", reason);
         }
         // One by one what moves most, and all with it.
         let mut ways = free.columns(0, spec.n()).transpose();
@@ -384,19 +361,12 @@ impl<'a> Sweep<'a> {
             },
             quoted(&names)
         );
-        Error::InvalidSetting {
-            what: "drives",
-            reason,
-        }
+        Error::invalid("drives", reason)
     }
 
     fn state(&self, curve: &Curve<'_>, place: &Place) -> State {
         let n = self.mech.spec().n();
-        State {
-            t: curve.time_at(place.s()),
-            q: place.x.as_slice()[..n].to_vec(),
-            v: vec![0.0; n],
-        }
+        State::at_rest(curve.time_at(place.s()), place.x.as_slice()[..n].to_vec())
     }
 
     /// The limit at `place`, where the drives stand still.

@@ -1,7 +1,7 @@
 //! What counts as zero.
 
 use crate::lanes::Lanes;
-use crate::scan::{excess, excess_by, largest_by};
+use crate::scan::{excess, excess_by, largest_by, or_one};
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -144,10 +144,7 @@ impl<L: Lanes> Acceptance<L> {
 impl Acceptance<f64> {
     /// max|A_cj|, or 1 for a row of zeros, which has no scale.
     pub(super) fn scale(&self, c: usize) -> f64 {
-        match self.entries[c] {
-            entry if entry > 0.0 => entry,
-            _ => 1.0,
-        }
+        or_one(self.entries[c])
     }
 
     /// How far off the constraints `rows` x is, by its size: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where

@@ -104,7 +104,7 @@ impl At<'_, f64> {
     /// Why residuals at `x` are not finite.
     pub(super) fn non_finite(&self, x: &[f64], residual: &[f64]) -> Error {
         let (q, v) = self.level.state(x, self.other);
-        diagnose::bad_input(self.mech, self.t, q, v)
-            .unwrap_or_else(|| diagnose::non_finite_residual(self.mech.spec(), residual))
+        let what = diagnose::non_finite_rows(self.mech.spec(), residual);
+        diagnose::bad_input(self.mech, self.t, q, v).unwrap_or(Error::NonFinite { what })
     }
 }

@@ -10,6 +10,7 @@ use super::level::{At, Level};
 use super::newton::Newton;
 use super::parts::Part;
 use crate::mechanism::Prepared;
+use crate::scan::or_one;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -73,10 +74,7 @@ impl Best {
         let mut matrix = DMatrix::from_fn(unknowns.len(), rows.len(), |j, c| {
             newton.jacobian[unknowns[j] * m + rows[c]] * ease[unknowns[j]]
         });
-        let norm = |c: usize| match matrix.column(c).norm() {
-            norm if norm > 0.0 => norm.recip(),
-            _ => 1.0,
-        };
+        let norm = |c: usize| or_one(matrix.column(c).norm()).recip();
         let scale: Vec<f64> = (0..rows.len()).map(norm).collect();
         for (mut row, scale) in matrix.column_iter_mut().zip(&scale) {
             row.scale_mut(*scale);
@@ -114,13 +112,8 @@ impl Best {
 impl Newton<f64> {
     /// Whether the place, of which all is known, is so near to where the rows of `part` are met that projection does the rest.
     fn is_near(&self, part: &Part) -> bool {
-        let Newton {
-            acceptance,
-            residual,
-            ..
-        } = self;
-        let off = acceptance.distance(part.rows(), residual);
-        off <= NEAR * acceptance.length(part.rows())
+        let off = self.acceptance.distance(part.rows(), &self.residual);
+        off <= NEAR * self.acceptance.length(part.rows())
     }
 }
 

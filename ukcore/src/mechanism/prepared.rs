@@ -39,7 +39,7 @@ pub trait Dynamics<S>: Equations<S> {
 /// All emitted functions, in numbers `S`.
 pub trait Emitted<S>: Dynamics<S> {
     /// What is known about the mechanism, and its functions in other numbers.
-    fn face(&self) -> &'static dyn Face;
+    fn face(&self) -> &'static Face;
     /// [`Mechanism::mass_matrix`].
     fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]);
     /// [`Mechanism::jacobian`].
@@ -62,59 +62,43 @@ pub trait Emitted<S>: Dynamics<S> {
     ) -> S;
 }
 
+type Inertias = fn(&[f64], &mut dyn FnMut(&'static str, &[f64]));
+type AtState = fn(&[f64], f64, &[f64], &[f64], &mut [f64]);
+
 /// What a mechanism is in all numbers that the runtime needs. Only functions that it calls are in a table, for each one in it is compiled.
-pub trait Face: Send + Sync + 'static {
-    /// [`Mechanism::SPEC`].
-    fn spec(&self) -> &'static Spec;
+pub struct Face {
     /// [`Mechanism::INTEGRALS`].
-    fn integrals(&self) -> &'static [OutputSpec];
+    integrals: &'static [OutputSpec],
     /// The identity of the mechanism's type.
-    fn id(&self) -> TypeId;
+    id: fn() -> TypeId,
     /// [`Mechanism::inertias`].
-    fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64]));
+    inertias: Inertias,
     /// [`Mechanism::drawing`].
-    fn drawing(&self, prepared: &[f64], t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]);
+    drawing: AtState,
     /// [`Mechanism::guess`].
-    fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess));
+    guess: fn(usize, &[f64], &mut dyn FnMut(Guess)),
     /// In numbers that carry derivatives.
-    fn sloped(&self) -> &'static dyn Dynamics<Sloped>;
+    sloped: &'static dyn Dynamics<Sloped>,
     /// In numbers that add up their rounding.
-    fn rounded(&self) -> &'static dyn Equations<Rounded>;
+    rounded: &'static dyn Equations<Rounded>,
     /// In numbers that may vary.
-    fn varied(&self) -> &'static dyn Equations<Interval>;
+    varied: &'static dyn Equations<Interval>,
 }
 
 /// The functions of `M`.
 struct Of<M>(PhantomData<fn() -> M>);
 
-impl<M: Mechanism> Face for Of<M> {
-    fn spec(&self) -> &'static Spec {
-        M::SPEC
-    }
-    fn integrals(&self) -> &'static [OutputSpec] {
-        M::INTEGRALS
-    }
-    fn id(&self) -> TypeId {
-        TypeId::of::<M>()
-    }
-    fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
-        M::inertias(given, each);
-    }
-    fn drawing(&self, prepared: &[f64], t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]) {
-        M::drawing(prepared, t, q, v, drawing);
-    }
-    fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {
-        M::guess(start, given, each);
-    }
-    fn sloped(&self) -> &'static dyn Dynamics<Sloped> {
-        &Of::<M>(PhantomData)
-    }
-    fn rounded(&self) -> &'static dyn Equations<Rounded> {
-        &Of::<M>(PhantomData)
-    }
-    fn varied(&self) -> &'static dyn Equations<Interval> {
-        &Of::<M>(PhantomData)
-    }
+impl<M: Mechanism> Of<M> {
+    const FACE: &'static Face = &Face {
+        integrals: M::INTEGRALS,
+        id: TypeId::of::<M>,
+        inertias: M::inertias,
+        drawing: M::drawing,
+        guess: M::guess,
+        sloped: &Of::<M>(PhantomData),
+        rounded: &Of::<M>(PhantomData),
+        varied: &Of::<M>(PhantomData),
+    };
 }
 
 impl<M: Mechanism, S: Scalar> Equations<S> for Of<M> {
@@ -142,8 +126,8 @@ impl<M: Mechanism, S: Scalar> Dynamics<S> for Of<M> {
 }
 
 impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
-    fn face(&self) -> &'static dyn Face {
-        &Of::<M>(PhantomData)
+    fn face(&self) -> &'static Face {
+        Of::<M>::FACE
     }
     fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         M::mass_matrix(prepared, t, q, mass);
@@ -332,7 +316,7 @@ impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
     /// Names of what is integrated along with a motion.
     #[must_use]
     pub fn integrals(&self) -> &'static [OutputSpec] {
-        self.code.face().integrals()
+        self.code.face().integrals
     }
 
     /// What is integrated along with a motion, at (t, q, q̇), in the order of [`integrals`](Prepared::integrals); see
@@ -348,36 +332,40 @@ impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
         self.code.correction(&self.values, t, q, v, residual, out)
     }
 
+    /// Whether `other` is the same mechanism, whatever its parameters are.
+    fn is_of_type<D: ?Sized + Emitted<T>, T: Scalar>(&self, other: &Prepared<T, D>) -> bool {
+        (self.code.face().id)() == (other.code.face().id)()
+    }
+
     /// An error unless `other` is the same mechanism; `what` is made for this one.
     pub(crate) fn check_same(&self, other: &Prepared, what: &str) -> Result<(), Error> {
-        if self.code.face().id() == other.code.face().id() {
+        if self.is_of_type(other) {
             return Ok(());
         }
         let (name, own) = (other.spec.name, self.spec.name);
-        Err(Error::InvalidSetting {
-            what: "mechanism",
-            reason: format!("is a `{name}`, but this {what} was made for `{own}`"),
-        })
+        Err(Error::invalid(
+            "mechanism",
+            format!("is a `{name}`, but this {what} was made for `{own}`"),
+        ))
     }
 }
 
 impl Prepared {
     /// Calls `each` with the name of each spatial body, its mass and its inertia by rows; see [`Mechanism::inertias`].
     pub(crate) fn inertias(&self, each: &mut dyn FnMut(&'static str, &[f64])) {
-        self.code.face().inertias(&self.given, each);
+        (self.code.face().inertias)(&self.given, each);
     }
 
     /// The numbers of the shapes of [`Spec::drawing`] at (t, q, q̇), one after the other; as many as
     /// [`Drawing::numbers`](crate::spec::Drawing::numbers) says.
     pub fn drawing(&self, t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]) {
-        let face = self.code.face();
-        face.drawing(&self.values, t, q, v, drawing);
+        (self.code.face().drawing)(&self.values, t, q, v, drawing);
     }
 
     /// Calls `each` with all that start number `start` says with these values of its options; see [`Mechanism::guess`].
     pub(crate) fn guess(&self, start: usize, options: &[f64], each: &mut dyn FnMut(Guess)) {
         let given = [&self.given, options].concat();
-        self.code.face().guess(start, &given, each);
+        (self.code.face().guess)(start, &given, each);
     }
 
     /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
@@ -408,17 +396,17 @@ impl Prepared {
 
     /// This mechanism in numbers that carry derivatives, with its parameters and held branches.
     pub(crate) fn sloped(&self) -> Prepared<Sloped, dyn Dynamics<Sloped>> {
-        self.lift(self.code.face().sloped(), Sloped::from_f64)
+        self.lift(self.code.face().sloped, Sloped::from_f64)
     }
 
     /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
     pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Equations<Rounded>> {
-        self.lift(self.code.face().rounded(), Rounded::exact)
+        self.lift(self.code.face().rounded, Rounded::exact)
     }
 
     /// This mechanism in numbers that may vary, with its parameters, which do not, and held branches.
     pub(crate) fn varied(&self) -> Prepared<Interval, dyn Equations<Interval>> {
-        self.lift(self.code.face().varied(), Interval::exact)
+        self.lift(self.code.face().varied, Interval::exact)
     }
 
     fn lift<T: Scalar, C: ?Sized + Equations<T>>(
@@ -458,9 +446,7 @@ impl<S: Scalar, C: ?Sized> Clone for Prepared<S, C> {
 
 impl<S: Scalar + PartialEq> PartialEq for Prepared<S> {
     fn eq(&self, other: &Self) -> bool {
-        self.code.face().id() == other.code.face().id()
-            && self.given == other.given
-            && self.values == other.values
+        self.is_of_type(other) && self.given == other.given && self.values == other.values
     }
 }
 

@@ -273,12 +273,6 @@ impl Scalar for DoubleDouble {
     fn sign(self) -> Self {
         DoubleDouble::from_f64(self.hi.sign())
     }
-    fn min(self, o: Self) -> Self {
-        Self::select_le(self, o, self, o)
-    }
-    fn max(self, o: Self) -> Self {
-        Self::select_le(self, o, o, self)
-    }
     fn hypot(self, o: Self) -> Self {
         (self * self + o * o).sqrt()
     }

@@ -15,10 +15,10 @@ pub(super) fn check(spec: &Spec, q: &[f64]) -> Result<(), Error> {
         return Ok(());
     };
     let (name, x, rounding) = (spec.coords[i], q[i], rounding(i));
-    Err(Error::InvalidSetting {
-        what: "start",
-        reason: format!(
+    Err(Error::invalid(
+        "start",
+        format!(
             "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
         ),
-    })
+    ))
 }

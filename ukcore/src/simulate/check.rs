@@ -11,8 +11,7 @@ use crate::manifold::Stabilisation;
 const MAX_SAMPLES: f64 = 1e8;
 
 fn invalid(what: &'static str, reason: impl Into<String>) -> Result<(), Error> {
-    let reason = reason.into();
-    Err(Error::InvalidSetting { what, reason })
+    Err(Error::invalid(what, reason))
 }
 
 /// Refuses a size that is given and not positive or not finite.
@@ -139,12 +138,8 @@ fn check_times(times: &[f64], start: &State, t_end: f64) -> Result<(), Error> {
         let reason = format!("contain {t}, which is not between {low} and {high}");
         return invalid("times", reason);
     }
-    let ordered = if t_end < start.t {
-        times.is_sorted_by(|a, b| a > b)
-    } else {
-        times.is_sorted_by(|a, b| a < b)
-    };
-    if !ordered {
+    let sign = if t_end < start.t { -1.0 } else { 1.0 };
+    if !times.is_sorted_by(|a, b| sign * a < sign * b) {
         let reason = "are not in the order in which the run passes them, each once";
         return invalid("times", reason);
     }

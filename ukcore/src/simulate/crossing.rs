@@ -140,8 +140,8 @@ pub(super) fn between(
         return None;
     }
     let cod = &search.dense.cod;
-    let names = cod.order()[leading(cod.pivots(), CLEAR)..].iter();
-    let names = names.map(|c| mech.spec().constraints[*c].name.to_owned());
+    let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
+    let constraints = mech.spec().constraint_names(lost);
     // Steps are too long yet to tell, or it cannot be told.
     let way = (behind.t - t).abs();
     find(mech, near, None).or_else(|| {
@@ -154,7 +154,7 @@ pub(super) fn between(
             },
             significance: least,
             rate: way.recip(),
-            constraints: names.collect(),
+            constraints,
         })
     })
 }
@@ -418,8 +418,7 @@ impl<'a> Search<'a> {
             return None;
         }
         let doubt = doubt || open == 0.0 && self.is_isolated();
-        let names = self.dense.cod.order()[self.dense.cod.rank()..].iter();
-        let names = names.map(|c| self.mech.spec().constraints[*c].name.to_owned());
+        let lost = &self.dense.cod.order()[self.dense.cod.rank()..];
         Some(Some(Singular {
             t: self.t,
             gap: if doubt {
@@ -429,7 +428,7 @@ impl<'a> Search<'a> {
             },
             significance: 0.0,
             rate: 0.0,
-            constraints: names.collect(),
+            constraints: self.mech.spec().constraint_names(lost),
         }))
     }
 

@@ -32,11 +32,11 @@ impl EnergyWatch {
         if change <= ASTRAY * exchanged || change <= NO_CHANGE * terms {
             return Ok(());
         }
-        let (what, step) = ("step", self.step);
+        let step = self.step;
         let share = 100.0 * change / exchanged;
         let reason = format!(
             "is {step:?}, which is too long here: the energy has changed by {share:.0} % of the energy exchanged; take a smaller one"
         );
-        Err(Error::InvalidSetting { what, reason })
+        Err(Error::invalid("step", reason))
     }
 }

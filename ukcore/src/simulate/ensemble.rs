@@ -17,7 +17,7 @@ use super::{Sample, Simulation, Switching};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
-use crate::trajectory::Work;
+use crate::trajectory::{Trajectory, Work};
 
 mod group;
 mod running;
@@ -55,6 +55,19 @@ pub struct Member {
     pub samples: Vec<State>,
     /// What it cost.
     pub work: Work,
+}
+
+impl Member {
+    /// What is kept of a run from `start`.
+    fn of(run: &Trajectory, start: &State) -> Self {
+        let end = run.last().unwrap_or_else(|| Sample::from(start));
+        Member {
+            end: end.to_state(),
+            integrals: end.integrals.to_vec(),
+            samples: run.samples().map(Sample::to_state).collect(),
+            work: run.work(),
+        }
+    }
 }
 
 impl Ensemble {
@@ -121,15 +134,7 @@ impl Ensemble {
     fn alone(&self, index: usize, t_end: f64) -> Result<Member, Error> {
         let simulation = self.simulation(index).switching(Switching::Ignored);
         let run = simulation.until(t_end).map_err(|failure| failure.error)?;
-        let end = run
-            .last()
-            .map_or_else(|| self.members[index].1.clone(), Sample::to_state);
-        Ok(Member {
-            end,
-            integrals: run.last().map_or(Vec::new(), |end| end.integrals.to_vec()),
-            samples: run.samples().map(Sample::to_state).collect(),
-            work: run.work(),
-        })
+        Ok(Member::of(&run, &self.members[index].1))
     }
 
     /// Member `index` alone.

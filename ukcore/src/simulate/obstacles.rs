@@ -13,6 +13,7 @@ use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
+use crate::spec::SwitchSpec;
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -54,11 +55,9 @@ pub(super) fn check_branch(
 
 /// An error that names the constraints whose significance in the last solution was not above `significance`.
 fn singular(solver: &Solver, significance: f64) -> Error {
-    let weak = solver.rows_below(significance).iter();
-    let names = weak.map(|c| solver.mechanism().spec().constraints[*c].name.to_owned());
-    Error::Singular {
-        constraints: names.collect(),
-    }
+    let spec = solver.mechanism().spec();
+    let constraints = spec.constraint_names(solver.rows_below(significance));
+    Error::Singular { constraints }
 }
 
 /// The least significance of a constraint that counts at a state.
@@ -165,11 +164,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
         let mut jacobian = vec![0.0; near.q.len() * spec.m()];
         mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
-        let rows = Rows {
-            jacobian: &jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
+        let rows = Rows::all(&jacobian, spec.m());
         if rows.largest(*row, &found.scale) <= RANK_CEILING * found.size {
             return None;
         }
@@ -239,22 +234,16 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
     let sizes = |q: &[f64]| -> Vec<f64> {
         let mut jacobian = vec![0.0; spec.n() * spec.m()];
         mechanism.jacobian(start.t, q, &there.v, &mut jacobian);
-        let rows = Rows {
-            jacobian: &jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
+        let rows = Rows::all(&jacobian, spec.m());
         let largest = |c: usize| rows.largest(c, &measure.scale);
         (0..spec.holonomic).map(largest).collect()
     };
     let pairs = sizes(start.q).into_iter().zip(sizes(&beside));
     let lost = pairs.enumerate().filter(|(_, (a, b))| *a < BEGUN * b);
-    let lost: Vec<String> = lost
-        .map(|(c, _)| spec.constraints[c].name.to_owned())
-        .collect();
+    let lost: Vec<usize> = lost.map(|(c, _)| c).collect();
     match lost.is_empty() {
         true => crossing::at(mechanism, start, &there.v, size, &measure).unwrap_or_default(),
-        false => lost,
+        false => spec.constraint_names(&lost),
     }
 }
 
@@ -340,11 +329,5 @@ fn directions(mechanism: &Prepared, State { t, q, v }: &State) -> Vec<String> {
     mechanism.switching(*t, q, v, &mut values);
     let zero = switches.iter().zip(values);
     let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
-    let mut terms: Vec<String> = Vec::new();
-    for term in zero.flat_map(|(switch, _)| switch.terms) {
-        if !terms.iter().any(|known| known == term) {
-            terms.push((*term).to_owned());
-        }
-    }
-    terms
+    SwitchSpec::terms(zero.map(|(switch, _)| switch))
 }

@@ -141,8 +141,8 @@ impl<'s> Recorder<'s> {
             integrals.begin();
         }
         let mut integrated = step.old.t;
-        let forward = step.until >= step.old.t;
-        let passed = |t: &f64| if forward { *t <= t_stop } else { *t >= t_stop };
+        let sign = if step.until < step.old.t { -1.0 } else { 1.0 };
+        let passed = |t: &f64| sign * t <= sign * t_stop;
         while let Some(t) = self.agenda.next().filter(passed) {
             within.consistent(t, between)?;
             self.agenda.take();

@@ -83,17 +83,12 @@ impl Simulation {
         work: &mut Work,
     ) -> Result<(State, f64, Tolerance), Error> {
         let spec = self.mechanism.spec();
-        let Some(State { t, q, v }) = self.start.clone() else {
-            let what = "start";
-            let reason = "is missing".to_owned();
-            return Err(Error::InvalidSetting { what, reason });
+        let Some(start) = self.start.clone() else {
+            return Err(Error::invalid("start", "is missing"));
         };
-        diagnose::check_length("q", q.len(), spec.n())?;
-        diagnose::check_length("v", v.len(), spec.n())?;
         let mech = &self.mechanism;
-        if let Some(error) = diagnose::bad_input(mech, t, &q, &v) {
-            return Err(error);
-        }
+        start.check(mech)?;
+        let State { t, q, v } = start;
         angles::check(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;

@@ -145,6 +145,14 @@ impl Matrix {
         leaves.squares(&self.entries, &mut self.squares);
     }
 
+    /// A at a state, measured, with the lengths of its rows.
+    fn at(mech: &Prepared, at: Sample<'_>, measure: Option<&Measure>, leaves: &Leaves) -> Self {
+        let mut matrix = Matrix::default();
+        matrix.take(mech, at, measure);
+        matrix.measure(leaves);
+        matrix
+    }
+
     fn length(&self, c: usize) -> f64 {
         self.squares[c].sqrt()
     }
@@ -218,22 +226,13 @@ impl RowWatch {
         };
         let Ok(part) = locate(turned, 0.0, 1.0);
         let state = between_states(old, new, part);
-        let mut between = Matrix::default();
-        let measure = self.measure.as_ref();
-        between.take(mech, Sample::from(&state), measure);
-        between.measure(&self.leaves);
+        let matrix = |at| Matrix::at(mech, at, self.measure.as_ref(), &self.leaves);
+        let between = matrix(Sample::from(&state));
         let found = self.smallest(&between, Sample::from(&state))?;
-        let row = found.row;
-        let mut ends = [0.0; 2];
-        for (length, at) in ends.iter_mut().zip([old, new]) {
-            let mut end = Matrix::default();
-            end.take(mech, at, measure);
-            end.measure(&self.leaves);
-            *length = end.length(row);
-        }
+        let [first, last] = [old, new].map(|end| matrix(end).length(found.row));
         // It comes to rest beside the place, and the step is short enough to see that.
-        let most = ends[0].max(ends[1]);
-        if between.length(row) > CHANGE * most {
+        let most = first.max(last);
+        if between.length(found.row) > CHANGE * most {
             return None;
         }
         Some(Vanishing {
@@ -430,8 +429,7 @@ impl RowWatch {
         };
         let Ok(part) = locate(turned, 0.0, 1.0);
         let state = between_states(old, new, part);
-        between.take(mech, Sample::from(&state), measure);
-        between.measure(&self.leaves);
+        let between = Matrix::at(mech, Sample::from(&state), measure, &self.leaves);
         let ends = self.seen.length(c).min(self.here.length(c));
         let least = between.length(c) / ends;
         (least < DIP).then(|| Vanishing {

@@ -1,12 +1,12 @@
 //! M, Q, A and b against derivatives of what is declared.
 
-use super::{Declared, Findings, along, constant, constants};
+use super::{Declared, Findings, along, constants};
 use crate::assemble::State;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix};
 use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar, Sloped, Slopes};
-use crate::scan::largest;
+use crate::scan::{largest, or_one};
 
 /// Two ways to compute the same carry about the same rounding; so many times that is allowed.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -140,7 +140,7 @@ impl Checked<'_> {
     /// φ with its first and second derivatives along (1, q̇) at constant velocities: φ̇ as `re.eps`, φ̈ as `eps.eps`.
     fn twice(&self) -> Vec<Dual<Dual>> {
         let State { t, q, v } = self.state;
-        let twice = |x: f64, d: f64| Dual::new(Dual::new(x, d), constant(d));
+        let twice = |x: f64, d: f64| Dual::new(Dual::new(x, d), Dual::from_f64(d));
         let q: Vec<_> = q.iter().zip(v).map(|(x, d)| twice(*x, *d)).collect();
         (self.declared.residual)(self.mech, twice(*t, 1.0), &q)
     }
@@ -233,12 +233,9 @@ pub(super) fn lagrangian(
     let State { t, q, v } = state;
     let mut at = constants(q);
     at[i].eps = 1.0;
-    let here = (declared.energy)(mech, constant(*t), &at, &constants(v));
+    let here = (declared.energy)(mech, Dual::from_f64(*t), &at, &constants(v));
     // ∂T/∂q̇_i of a quadratic T is a difference over any length.
-    let h = match largest(v) {
-        speed if speed > 0.0 => speed,
-        _ => 1.0,
-    };
+    let h = or_one(largest(v));
     let moving = |h: f64| {
         let mut v = constants(v);
         v[i].re += h;
@@ -252,10 +249,7 @@ pub(super) fn lagrangian(
     let slopes = [kinetic, potential, after, before];
     let slopes: f64 = slopes.iter().map(|x| x.abs()).sum();
     // A slope that is zero but for rounding is no part: it is as large as energy over length.
-    let length = match largest(q) {
-        length if length > 0.0 => length,
-        _ => 1.0,
-    };
+    let length = or_one(largest(q));
     let energy = here.kinetic.re.abs() + here.potential.re.abs();
     let size = slopes.max(ROUNDING / PART * energy / length);
     (kinetic - potential - (after - before), size)

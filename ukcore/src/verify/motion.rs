@@ -12,7 +12,7 @@ use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{INDEPENDENT, complement, decompose, measure, units};
 use crate::random::Random;
 use crate::scalar::Dual;
-use crate::scan::largest;
+use crate::scan::{largest, or_one};
 use crate::solver::{Solution, Solver, SolverOptions};
 
 /// Equations are to be met to this part of the largest of their terms, in units of inertia.
@@ -103,11 +103,7 @@ impl Equations {
             mass.row_mut(j).scale_mut(*unit);
         }
         measure(&mut jacobian, &units);
-        let length = |i| match jacobian.row(i).norm() {
-            length if length > 0.0 => length,
-            _ => 1.0,
-        };
-        let lengths = DVector::from_iterator(m, (0..m).map(length));
+        let lengths = DVector::from_fn(m, |i, _| or_one(jacobian.row(i).norm()));
         for (mut row, length) in jacobian.row_iter_mut().zip(lengths.iter()) {
             row /= *length;
         }
@@ -212,14 +208,8 @@ impl Equations {
 
     /// Eqs. 13 and 19.
     fn printed(&self, mech: &Prepared, acceleration: &[f64], found: &mut Findings) {
-        let Equations {
-            mass,
-            force,
-            nonideal,
-            jacobian,
-            rhs,
-            ..
-        } = self;
+        let (mass, jacobian, rhs) = (&self.mass, &self.jacobian, &self.rhs);
+        let (force, nonideal) = (&self.force, &self.nonideal);
         let a = self.measured(acceleration);
         let allowed = PRINTED * self.size(&a);
         let solve = &mech.spec().structure.solve;

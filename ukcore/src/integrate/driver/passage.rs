@@ -259,11 +259,7 @@ impl Driver<'_> {
                 Err(Error::too_small(0.0))
             }
             Outcome::Reached if !last => {
-                let begun = self.scheme.begin(&mut self.equations);
-                begun.map_err(|cause| {
-                    self.equations.course.blame(cause);
-                    Error::too_small(0.0)
-                })?;
+                self.begin()?;
                 Ok(None)
             }
             outcome => Ok(Some(outcome)),
@@ -309,6 +305,11 @@ impl Driver<'_> {
         self.equations.course.now = place;
         self.scheme.end_mut().copy_from_slice(y);
         self.scheme.advance();
+        self.begin()
+    }
+
+    /// Evaluates f where the run stands now.
+    pub(super) fn begin(&mut self) -> Result<(), Error> {
         let begun = self.scheme.begin(&mut self.equations);
         begun.map_err(|cause| {
             self.equations.course.blame(cause);

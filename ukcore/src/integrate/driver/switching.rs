@@ -28,10 +28,7 @@ impl Driver<'_> {
             return Ok(());
         }
         self.equations.set_branch(switches, Branch::Followed);
-        self.scheme.begin(&mut self.equations).map_err(|cause| {
-            self.equations.course.blame(cause);
-            Error::too_small(0.0)
-        })
+        self.begin()
     }
 
     /// Refuses the closed step if it leaves the branches of its start. Returns whether its interpolant had to be made for that.

@@ -118,8 +118,9 @@ impl Equations<'_> {
     /// Those of `switches` whose functions leave the branches they are in.
     fn driven_out(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         let along = self.course.along;
-        let out = |_, branch: Branch, rate: f64| along * branch.sign() * rate < 0.0;
-        self.moving(switches, y, out)
+        self.moving(switches, y, |branch, rate| {
+            along * branch.sign() * rate < 0.0
+        })
     }
 
     /// The switches whose functions are positive and get to zero within the step proposed from here, at the rate that they have here;
@@ -142,16 +143,15 @@ impl Equations<'_> {
 
     /// Those of `switches` whose functions stay as they are.
     fn at_rest(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
-        self.moving(switches, y, |_, _, rate| rate == 0.0)
+        self.moving(switches, y, |_, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their position, their branch and the rate of their function holds at this state; none
-    /// where q̈ has no value.
+    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no value.
     fn moving(
         &mut self,
         switches: &[usize],
         y: &[f64],
-        which: impl Fn(usize, Branch, f64) -> bool,
+        which: impl Fn(Branch, f64) -> bool,
     ) -> Vec<usize> {
         let s = self.course.now.s;
         let at = self.at(s, y);
@@ -163,8 +163,6 @@ impl Equations<'_> {
         let mut rates = vec![0.0; branches.len()];
         self.problem.switching_rate(at, &acceleration, &mut rates);
         let found = switches.iter().copied();
-        found
-            .filter(|k| which(*k, branches[*k], rates[*k]))
-            .collect()
+        found.filter(|k| which(branches[*k], rates[*k])).collect()
     }
 }

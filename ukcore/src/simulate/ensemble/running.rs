@@ -139,17 +139,12 @@ impl Running {
             ..Sample::of(self.course.now.t, y)
         };
         self.recorder.trajectory.reach(end);
-        let trajectory = self.recorder.finish();
-        let mut work = trajectory.work;
+        let mut trajectory = self.recorder.finish();
+        let work = &mut trajectory.work;
         work.steps = self.course.steps;
         work.rejected = self.course.rejected();
         work.evaluations = lane.evaluations;
         work.fallbacks = lane.fallbacks;
-        Member {
-            end: end.to_state(),
-            integrals: integrals.clone(),
-            samples: trajectory.samples().map(Sample::to_state).collect(),
-            work,
-        }
+        Member::of(&trajectory, &self.start)
     }
 }
