@@ -97,7 +97,7 @@ pub(crate) struct Dense {
     pub(crate) cod: Decomposition,
     /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
     pub(crate) row_scale: Vec<f64>,
-    /// What the largest entry of each row of A, measured, is divided by; by itself where this is 0.
+    /// What the largest entry of each row of A, measured, is divided by; by itself, or what the measure says, where this is 0.
     pub(crate) sizes: Vec<f64>,
     significance: Vec<f64>,
     /// N, n × (n − rank).
@@ -179,8 +179,10 @@ impl Dense {
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {
             column.iter_mut().zip(a.row(c)).for_each(|(x, a)| *x = a);
             self.metric.divide(column);
-            let size = self.sizes[c];
-            if size > 0.0 {
+            let known = Some(self.sizes[c]).filter(|size| *size > 0.0);
+            let own = a.largest(c, &self.measure.scale);
+            let size = known.or_else(|| self.measure.size_of_vanishing(c, own));
+            if let Some(size) = size {
                 column.iter_mut().for_each(|x| *x /= size);
                 (self.row_scale[c], self.significance[c]) = (size.recip(), 1.0);
                 continue;
@@ -194,7 +196,7 @@ impl Dense {
                 let norm = dot(column, column).sqrt();
                 column.iter_mut().for_each(|x| *x /= norm);
                 self.row_scale[c] = (largest * norm).recip();
-                self.significance[c] = largest * norm / a.largest(c, &self.measure.scale);
+                self.significance[c] = largest * norm / own;
             }
         }
         let pairs = self.metric.root.iter().zip(&self.measure.scale);

@@ -22,6 +22,9 @@ const BEND: f64 = 1e-6;
 /// A rod that is shorter than this share of a state, known to no more than three digits there, is none.
 const LEAST: f64 = 1e3 * f64::EPSILON;
 
+/// A row less than this share of what it is beside a state vanishes there.
+const VANISHING: f64 = 1.0 / 32.0;
+
 /// The shortest rod counts for so much of the longest that no more is asked of it than this share of that, which rounding takes, but for no
 /// more than [`SHORT`].
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
@@ -42,6 +45,8 @@ pub(crate) struct Measure {
     jacobian: Vec<f64>,
     /// The largest entry of each class in each row.
     entries: Vec<f64>,
+    /// The largest entry of each row, measured, here or beside the state; 0 where A is not looked at beside it.
+    natural: Vec<f64>,
     levers: Vec<f64>,
     known: Vec<bool>,
     factors: Vec<f64>,
@@ -58,16 +63,18 @@ impl Measure {
     pub(crate) fn new(spec: &Spec) -> Self {
         let (n, m) = (spec.n(), spec.m());
         let (class, classes, turns) = classes(spec);
-        let room = if classes > 1 { n * m } else { 0 };
+        let looks = classes > 1 || !turns.is_empty();
+        let room = if looks { n * m } else { 0 };
         Measure {
             scale: vec![1.0; n],
             class,
             classes,
-            kept: classes < 2,
+            kept: !looks,
             turns,
             beside: vec![0.0; n],
             jacobian: vec![0.0; room],
             entries: vec![0.0; classes * m],
+            natural: vec![0.0; m],
             levers: Vec::with_capacity(m),
             known: vec![false; classes],
             factors: vec![1.0; classes],
@@ -95,7 +102,13 @@ impl Measure {
     /// Keeps this scale, from now on at all states.
     pub(crate) fn keep(&mut self, scale: &[f64]) {
         self.scale.copy_from_slice(scale);
+        self.forget_rows();
         self.kept = true;
+    }
+
+    /// Compares rows with themselves until the next state.
+    pub(crate) fn forget_rows(&mut self) {
+        self.natural.fill(0.0);
     }
 
     /// Takes the scale at a state, where A has the entries `jacobian` and M is `mass` (both column-major).
@@ -126,6 +139,17 @@ impl Measure {
         self.link(mass);
         let pairs = self.scale.iter_mut().zip(&self.class);
         pairs.for_each(|(scale, class)| *scale = self.factors[*class]);
+        let rows = self.entries.chunks_exact(self.classes);
+        for (natural, row) in self.natural.iter_mut().zip(rows) {
+            let entries = row.iter().zip(&self.factors);
+            *natural = entries.fold(0.0, |most, (entry, factor)| most.max(entry * factor));
+        }
+    }
+
+    /// What to compare a row with whose largest entry, measured, is this: itself, unless it all but vanishes at the state, where next to
+    /// nothing turns it into any direction; then as much as it is beside the state. `None` where it is to be compared with itself.
+    pub(crate) fn size_of_vanishing(&self, row: usize, largest: f64) -> Option<f64> {
+        Some(self.natural[row]).filter(|natural| largest < VANISHING * natural)
     }
 
     /// max |xᵢ|/sᵢ, the size of coordinates or velocities.

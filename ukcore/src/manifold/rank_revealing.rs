@@ -63,12 +63,13 @@ impl Factors {
 
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
     /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
-    /// taken in.
+    /// taken in. Of a row that all but vanishes nobody can tell what it says, either, unless the motion is `passing` a place where it does.
     fn factor(
         &mut self,
         at: &At<'_, f64>,
         x: &[f64],
         newton: &mut Newton<f64>,
+        passing: bool,
     ) -> Result<(), Error> {
         let jacobian = &mut newton.jacobian;
         let spec = at.mech.spec();
@@ -89,6 +90,10 @@ impl Factors {
         let (q, v) = at.level.state(x, at.other);
         let measure = &mut dense.measure;
         measure.take(at.mech, at.t, [q, v], jacobian, mass);
+        // Rows may be small for want of what is held.
+        if passing || !newton.acceptance.held.is_empty() {
+            measure.forget_rows();
+        }
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
@@ -148,7 +153,7 @@ impl Factors {
         at.jacobian(base, &mut newton.jacobian);
         if !*factored {
             self.place = None;
-            self.factor(at, base, newton)?;
+            self.factor(at, base, newton, false)?;
             *factored = true;
         }
         self.solve(at, newton);
@@ -173,7 +178,7 @@ impl Manifold {
         }
         at.jacobian(x, &mut self.newton.jacobian);
         (self.factors.place, self.factors.cautious) = (None, true);
-        self.factors.factor(at, x, &mut self.newton)?;
+        self.factors.factor(at, x, &mut self.newton, true)?;
         Ok(self.factors.doubts())
     }
 
@@ -183,7 +188,7 @@ impl Manifold {
             self.newton.evaluate(at, x);
             at.jacobian(x, &mut self.newton.jacobian);
             (self.factors.place, self.factors.cautious) = (None, true);
-            self.factors.factor(at, x, &mut self.newton)?;
+            self.factors.factor(at, x, &mut self.newton, true)?;
             self.factors.solve(at, &mut self.newton);
             axpy(1.0, &self.newton.step, x);
         }
@@ -229,7 +234,7 @@ impl Manifold {
             fresh = !(factored && off <= KEEP_FACTORS * previous);
             previous = off;
             if fresh && off.is_finite() {
-                failure = factors.factor(at, x, newton).err();
+                failure = factors.factor(at, x, newton, false).err();
                 factored = failure.is_none();
             }
             if !factored || !off.is_finite() {

@@ -14,7 +14,8 @@ impl Solver {
             self.dense.cod.set_rank(clear);
             self.measure_drift(t, q, v);
             let there = self.drift.there.rows();
-            let (here, scale) = (self.here.rows(), &self.dense.measure.scale);
+            let (here, measure) = (self.here.rows(), &self.dense.measure);
+            let scale = &measure.scale;
             for c in 0..self.m {
                 let change = here.row(c).zip(there.row(c)).zip(scale);
                 let change = change.map(|((a, b), s)| ((a - b) * s).abs());
@@ -24,7 +25,9 @@ impl Solver {
                     false => f64::INFINITY,
                 });
                 if change > 0.0 {
-                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c, scale));
+                    let own = here.largest(c, scale);
+                    let size = measure.size_of_vanishing(c, own).unwrap_or(own);
+                    tolerance = tolerance.max(DRIFT_FACTOR * change / size);
                 }
             }
             tolerance = tolerance.min(RANK_CEILING);
