@@ -341,3 +341,34 @@ fn efforts_of_turned_bodies_are_right_beside_the_identity() {
     let swept = kinematics(&free, &resting, &[("b.e3", -0.5..0.5)], &[], 10).unwrap();
     assert!(swept.efforts(&["b.e3"]).is_ok());
 }
+
+ukcore::multibody! {
+    /// A ball that rolls on a turntable.
+    pub Table {
+        params { m = 3.0, r = 0.05, w = 3.5, g = 9.81 }
+        bodies { spatial ball { mass: m, inertia: [0.4 * m * sq(r), 0.4 * m * sq(r), 0.4 * m * sq(r)] } }
+        gravity { [0, 0, -g] }
+        holonomic { touch: ball.z = r }
+        let contact = dot(ball.centre) + cross(ball.omega, [0, 0, -r]) - cross([0, 0, w], ball.centre);
+        nonholonomic { roll[0]: contact[0] = 0, roll[1]: contact[1] = 0 }
+        integral { work = -w * ball.y * reaction(roll[0]) + w * ball.x * reaction(roll[1]) }
+        start thrown() { ball.e0 = 1.0; ball.x = 0.5; ball.y = 0.0; dot(ball.x) = 0.0; dot(ball.y) = 1.0; }
+    }
+}
+
+/// Where it starts the table's surface moves across the radius alone, and one row prescribes nothing.
+#[test]
+fn what_drives_anywhere_is_a_motor() {
+    let table = Table::default();
+    let start = table.start("thrown", &[].into()).unwrap();
+    let motors = table.prepared().motors(&start, [0.0, 1.0]);
+    assert_eq!(motors, ["roll[0]", "roll[1]"]);
+    let run = Simulation::new(&table).start(start).tolerance(1e-11);
+    let run = run.every(0.1).until(2.0).unwrap();
+    let energy = run.energy();
+    let kinetic = energy.iter().map(|e| e.kinetic);
+    let first = energy[0].kinetic;
+    for (work, kinetic) in run.integral("work").unwrap().iter().zip(kinetic) {
+        assert_close("work", *work, kinetic - first, 1e-8);
+    }
+}

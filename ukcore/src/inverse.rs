@@ -38,6 +38,9 @@ const MET: f64 = 1e-6;
 /// A force on a free displacement below this part of what adds up to it is rounding.
 const NOTHING: f64 = 1e-14;
 
+/// How far beside a state rows are looked at for what they prescribe, as a share of the size of its coordinates, at least 1.
+const BESIDE: f64 = 0.0123;
+
 /// A combination of motors that acts on free displacements by less than this part of their largest coefficient moves nothing.
 const IDLE: f64 = 1e-9;
 
@@ -201,18 +204,24 @@ fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> D
 }
 
 impl Prepared {
-    /// The rows that prescribe a motion at some of `times`: those whose rate at rest, at `state`, is not zero. A motor that holds still is
-    /// none of them.
+    /// The rows that prescribe a motion at some of `times`: those whose rate at rest, at `state` or beside it, is not zero. A motor that
+    /// holds still is none of them.
     #[must_use]
     pub fn motors(&self, state: &State, times: impl IntoIterator<Item = f64>) -> Vec<&'static str> {
         let spec = self.spec();
         let mut rate = vec![0.0; spec.m()];
         let mut moves = vec![false; spec.m()];
         let rest = vec![0.0; spec.n()];
+        // At the state by itself a drive may vanish, as that of a turntable does along its radius.
+        let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
+        let beside = |(k, q): (usize, &f64)| q + BESIDE * (1.0 + (k % 7) as f64) * size.max(1.0);
+        let beside: Vec<f64> = state.q.iter().enumerate().map(beside).collect();
         for t in times {
-            self.residual_rate(t, &state.q, &rest, &mut rate);
-            let pairs = moves.iter_mut().zip(&rate);
-            pairs.for_each(|(moves, rate)| *moves |= *rate != 0.0);
+            for q in [&state.q, &beside] {
+                self.residual_rate(t, q, &rest, &mut rate);
+                let pairs = moves.iter_mut().zip(&rate);
+                pairs.for_each(|(moves, rate)| *moves |= *rate != 0.0 && !rate.is_nan());
+            }
         }
         let rows = spec.constraints.iter().zip(moves);
         rows.filter(|(_, moves)| *moves)

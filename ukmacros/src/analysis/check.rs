@@ -56,7 +56,8 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     repeated(system, &same, diag);
 }
 
-/// Reports rows that are the `same` as others: once where all rows of a constraint are those of another.
+/// Reports rows that are the `same` as others: once where all rows of a constraint are those of another. Joints share rows as a matter of
+/// course, as two hinges of a door do; such a row is redundant.
 fn repeated(system: &System, same: &BTreeMap<usize, usize>, diag: &Diagnostics) {
     let whole = |row: usize| system.constraints[row].item.whole();
     let mut rows: HashMap<String, Vec<usize>> = HashMap::new();
@@ -65,11 +66,13 @@ fn repeated(system: &System, same: &BTreeMap<usize, usize>, diag: &Diagnostics) 
             rows.entry(whole(row)).or_default().push(row);
         }
     }
+    let joint = |row: usize| system.constraints[row].item.row.is_some();
     for (row, other) in same {
         let (name, first) = (whole(*row), whole(*other));
         let of_first = |r: &usize| same.get(r).is_some_and(|o| whole(*o) == first);
         let (name, other) = match rows[&name].iter().all(of_first) {
             true => (name, first),
+            false if joint(*row) && joint(*other) => continue,
             false => {
                 let text = |row: usize| system.constraints[row].item.text();
                 (text(*row), text(*other))
