@@ -11,6 +11,7 @@ mod joints;
 mod kinematics;
 mod language;
 mod layers;
+mod loads;
 mod machines;
 mod modes;
 mod nearest;

@@ -420,6 +420,7 @@ fn loads_that_are_not_determined_are_not_a_number() {
         .until(1.0)
         .unwrap();
     assert!(run.output("load").unwrap().iter().all(|load| load.is_nan()));
+    assert!(run.output("apart").unwrap().iter().all(|load| *load == 0.0));
     let told = lost_reactions(Table::default(), &start).expect("loads are not determined");
     assert!(
         told.starts_with("`a`, `b`, `c`, `d` imply each other there"),

@@ -36,7 +36,7 @@ pub(crate) use certificate::{Solve, Straight};
 use super::dynamics::Dynamics;
 use super::frame::Turned;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
-use dropping::{Dropping, droppings};
+use dropping::{Dropping, droppings, shares};
 use matrix::{Factor, Matrix};
 pub(crate) use order::Order;
 use order::{Taste, order};
@@ -89,6 +89,8 @@ pub(crate) struct Elimination {
     correction_rights: Vec<Id>,
     /// What is checked of the rows that may be left out.
     droppings: Vec<Dropping>,
+    /// Of each constraint, where rows may be left out and multipliers are wanted: its share of what those left out follow from, squared.
+    shares: Vec<Option<Id>>,
     order: Order,
     /// Whether there are no constraints, but for definitions that are substituted.
     free: bool,
@@ -276,6 +278,10 @@ pub(crate) fn eliminate(
     fixed.extend(inertia(d, divisors.iter().map(|(d, _)| d), names, g));
     let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
+    let shares = match task.multipliers && !droppings.is_empty() {
+        true => shares(&factors, d, &jacobian, names, g)?,
+        false => vec![Some(g.zero()); d.rhs.len()],
+    };
     motion.coordinates.truncate(own.0);
     task.turned.turn_back(&mut motion.coordinates, g);
     let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
@@ -314,6 +320,7 @@ pub(crate) fn eliminate(
         divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights.into_iter().flatten().collect(),
         droppings,
+        shares,
         order,
         free,
         inertias,

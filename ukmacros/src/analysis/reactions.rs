@@ -4,15 +4,15 @@
 //! known before c, and c may depend on it: M q̈ = Q + Aᵀλ, A q̈ = b is eliminated first, and its λ are values of the state like any others.
 //! Where the pivots are those of the equations with c, they are the same nodes, computed once.
 //!
-//! λ is unique where the rows of A are independent. Where the certificate of the elimination does not say so, or a row was left out, it is
-//! not a number, and so is what depends on it.
+//! λ of a row is unique where no dependence of rows of A has it. Where it takes part in what rows that are left out follow from, or the
+//! certificate of the elimination does not hold, it is not a number, and so is what depends on it.
 
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Straight, Task, eliminate, orders};
 use super::frame::Turned;
 use super::regular::Regular;
 use super::switches::Switch;
-use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
+use crate::expr::{Graph, Id, Map, Node, Symbol, System};
 
 /// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs,
 /// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be
@@ -100,30 +100,22 @@ fn multipliers(
     let elimination = elimination?;
     let straight = Straight::new(elimination, held, &regular.met, system);
     let g = &mut system.graph;
-    let one = g.one();
-    let minus = g.neg(one);
     let unique = straight.elimination.unique(&straight.met, held, g);
-    // 1, or √−1.
-    let unique = match g.as_const(unique) == Some(1.0) {
-        true => one,
-        false => {
-            let sign = g.select(one, unique, one, minus);
-            g.call1(Func::Sqrt, sign)
-        }
-    };
-    system.unique = Some(unique);
     let multipliers = straight
         .elimination
         .multipliers
         .iter()
+        .zip(&unique)
         .zip(&system.constraints);
-    let multipliers = multipliers.map(|(id, constraint)| {
-        let value = g.mul(*id, unique);
+    let multipliers = multipliers.map(|((id, unique), constraint)| {
+        let value = g.mul(*id, *unique);
         let name = format!("reaction_{}", constraint.item.text());
         if !g.operands(value).is_empty() {
             system.inner_hints.entry(value).or_insert(name);
         }
         value
     });
-    Ok(multipliers.collect())
+    let multipliers = multipliers.collect();
+    system.unique = unique;
+    Ok(multipliers)
 }

@@ -59,8 +59,15 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let taken: HashSet<String> = taken.chain(system.hints.values().cloned()).collect();
     let definitions = abbreviate(system, &roots, &taken, &mut printer);
     let g = &system.graph;
-    if let Some(unique) = system.unique.filter(|id| !g.operands(*id).is_empty()) {
-        printer.named.insert(unique, "unique".to_owned());
+    let several: HashSet<&Id> = system.unique.iter().collect();
+    for (row, unique) in system.unique.iter().enumerate() {
+        let name = match several.len() {
+            1 => "unique".to_owned(),
+            _ => format!("unique_{}", constraints[row]),
+        };
+        if !g.operands(*unique).is_empty() {
+            printer.named.entry(*unique).or_insert(name);
+        }
     }
     let letters = Letters::beside(&taken);
     let fold = |blocks: Vec<Block>| families(blocks, &letters);
@@ -102,7 +109,7 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     });
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
-        _ if system.unique == Some(*id) => {
+        _ if system.unique.contains(id) => {
             "1; not a number where reactions are not unique".to_owned()
         }
         // The part of the certificate that parameters decide.

@@ -59,6 +59,9 @@ const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 pub(super) const MET: f64 = 2e-12;
 
+/// The least share of a dependence that a row has which takes part in it: `ukcore::diagnosis` knows it, too.
+const PARTICIPATION: f64 = 1e-6;
+
 /// Inertias of one mechanism that are further apart are looked at where it runs: see the module.
 const SPREAD: f64 = 1e-4;
 /// The certificate where they are, and every pivot is safe: `ukcore::solver` knows it, too.
@@ -275,12 +278,35 @@ impl Elimination {
         g.select(left, size, safe, zero)
     }
 
-    /// `safe` where the rows of A are independent, so that all multipliers are unique, and q̈ meets those of `met`; else 0. A share of
+    /// What each multiplier is to be multiplied by: 1 where it is unique, else not a number. The pivots of all rows that count are safe and
+    /// q̈ meets those of `met`, or none is known; and of those that are left out none takes part in what they follow from. A share of
     /// [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
-    pub(crate) fn unique(&self, met: &[usize], d: &Dynamics, g: &mut Graph) -> Id {
-        let (independent, _) = self.certificate(true, g);
-        met.iter()
-            .fold(independent, |safe, row| self.meets(*row, d, safe, g))
+    pub(crate) fn unique(&self, met: &[usize], d: &Dynamics, g: &mut Graph) -> Vec<Id> {
+        let (safe, _) = self.certificate(true, g);
+        let safe = met
+            .iter()
+            .fold(safe, |safe, row| self.meets(*row, d, safe, g));
+        let safe = self
+            .droppings
+            .iter()
+            .fold(safe, |safe, dropping| dropping.allows(safe, g));
+        let one = g.one();
+        let minus = g.neg(one);
+        let [tiny, part] =
+            [f64::MIN_POSITIVE, PARTICIPATION * PARTICIPATION].map(|x| g.constant(x));
+        let sign = lesser(tiny, safe, one, minus, g);
+        let factors = self.shares.iter().map(|share| {
+            let sign = match share {
+                Some(share) => lesser(*share, part, sign, minus, g),
+                None => minus,
+            };
+            // 1, or √−1.
+            match g.as_const(sign) == Some(1.0) {
+                true => one,
+                false => g.call1(Func::Sqrt, sign),
+            }
+        });
+        factors.collect()
     }
 
     /// 1 where inertias are within [`SPREAD`] of each other, else [`UNEVEN`]: computed once, so that it costs nothing.
@@ -300,10 +326,10 @@ impl Elimination {
     }
 
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
-    /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it. Rows that may be left out are
-    /// not, and pivots may be smaller, where `all` is asked for.
-    fn certificate(&self, all: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
-        let share = match all {
+    /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it. Pivots may be smaller for
+    /// `multipliers`.
+    fn certificate(&self, multipliers: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+        let share = match multipliers {
             true => SAFE_SHARE * SAFE_SHARE,
             false => self.least_share(),
         };
@@ -319,10 +345,7 @@ impl Elimination {
         for (k, divisor) in divisors().enumerate() {
             let (value, reference) = (divisor.value, divisor.reference);
             let (value, least) = if divisor.droppable {
-                match all {
-                    true => (value, g.scale(SAFE_SHARE, reference)),
-                    false => (value, least(reference, g)),
-                }
+                (value, least(reference, g))
             } else if divisor.may_vanish {
                 (value, zero)
             } else if value == reference {
@@ -334,7 +357,7 @@ impl Elimination {
             };
             let least_known = least == tiny || divisor.may_vanish;
             let holds = match g.as_const(value) {
-                Some(x) => divisor.droppable && !all || x > 0.0 && least_known,
+                Some(x) => divisor.droppable || x > 0.0 && least_known,
                 None => false,
             };
             if !holds && known.insert((value, least)) {
@@ -342,7 +365,7 @@ impl Elimination {
             }
         }
         conditions.sort_by_key(|(_, a, b)| !(g.uses(*a).constant() && g.uses(*b).constant()));
-        let mut safe = match all {
+        let mut safe = match multipliers {
             true => g.one(),
             false => self.even(g),
         };

@@ -21,9 +21,10 @@
 
 use super::certificate::{MET, SAFE_SHARE};
 use super::matrix::Factor;
-use super::solution::Solution;
+use super::solution::{Forward, Solution};
 use crate::analysis::dynamics::Dynamics;
-use crate::expr::{Graph, Id};
+use crate::analysis::probe::Random;
+use crate::expr::{Func, Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
@@ -110,6 +111,53 @@ pub(super) fn droppings(
         }
     });
     dropped.collect()
+}
+
+/// Of each constraint its share of what the rows left out follow from, squared; `None` where it has none that could be measured.
+///
+/// Of a row k that is left out K has a null vector: with 1 for its multiplier, back substitution alone gives the others of Σ λ_j a_j = 0.
+/// Each is compared with what a row of its length could be, and all rows that are left out are taken at once, in shares that no structure
+/// makes cancel: a multiplier that has nothing of it is the same however the others share their load.
+pub(super) fn shares(
+    factors: &[Factor],
+    d: &Dynamics,
+    jacobian: &BTreeMap<(usize, usize), Id>,
+    names: &[String],
+    g: &mut Graph,
+) -> Result<Vec<Option<Id>>, String> {
+    let (n, m) = (d.force.len(), d.rhs.len());
+    let zero = g.zero();
+    let mut squares: Vec<Vec<(f64, Id)>> = vec![Vec::new(); m];
+    for ((row, i), a) in jacobian {
+        if let Some(mass) = d.mass.get(&(*i, *i)) {
+            squares[*row].push((1.0, g.product(&[(*a, 2), (*mass, -1)])));
+        }
+    }
+    let squares: Vec<Id> = squares.iter().map(|terms| g.sum(terms)).collect();
+    let mut kernel = Forward::new(&vec![zero; n], &vec![zero; m]);
+    let mut random = Random::new(3);
+    for factor in factors {
+        kernel.step(factor, g);
+        if let Factor::Single(single) = factor
+            && single.reciprocal.is_some()
+        {
+            let weight = random.positive();
+            let length = g.call1(Func::Sqrt, squares[single.at - n]);
+            let weight = g.constant(weight);
+            let mut own = g.div(weight, length);
+            if !g.is_zero(single.numerator) {
+                let counts = g.scale(SAFE_SHARE, single.reference);
+                own = g.select(counts, single.numerator, zero, own);
+            }
+            kernel.begin(own);
+        }
+    }
+    let found = kernel.solution(factors, true, names, g, &mut Vec::new())?;
+    let shares = found.constraints.iter().zip(&squares).map(|(x, square)| {
+        let share = g.product(&[(*x, 2), (*square, 1)]);
+        (g.is_zero(*x) || !g.is_zero(*square)).then_some(share)
+    });
+    Ok(shares.collect())
 }
 
 /// Of each position the part of the mechanism it is in: parts are not coupled.

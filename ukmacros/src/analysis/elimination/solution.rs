@@ -54,6 +54,13 @@ impl Forward {
         self.solved.push(solved);
     }
 
+    /// Gives the unknown of the step taken last the value `own`, but for what others have of it.
+    pub(super) fn begin(&mut self, own: Id) {
+        if let Some(last) = self.solved.last_mut() {
+            *last = own;
+        }
+    }
+
     fn value(&self, k: usize, g: &mut Graph) -> Id {
         self.entries[k].values(g).1
     }

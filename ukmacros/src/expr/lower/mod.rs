@@ -301,7 +301,7 @@ impl<'m> Lowering<'m> {
             outputs,
             integrals,
             reaction: self.reaction_used,
-            unique: None,
+            unique: Vec::new(),
             starts,
             drawing,
             hints: std::mem::take(&mut self.hints),

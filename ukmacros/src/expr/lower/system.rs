@@ -35,8 +35,8 @@ pub(crate) struct System {
     /// Where the first reaction is used, if one is.
     pub(crate) reaction: Option<Loc>,
     pub(crate) starts: Vec<StartValue>,
-    /// What reactions are multiplied by: 1, or not a number where they are not unique.
-    pub(crate) unique: Option<Id>,
+    /// What the reaction of each constraint is multiplied by, where one is used: 1, or not a number where it is not unique.
+    pub(crate) unique: Vec<Id>,
     pub(crate) drawing: Drawing,
     /// Names that the modeller gave to values.
     pub(crate) hints: Map<Id, String>,
