@@ -11,7 +11,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
+use crate::modes::{constraint_matrix, null_space_holding, units};
 use crate::random::Random;
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
@@ -110,7 +110,7 @@ fn looked(mech: Prepared, guess: &State, hold: &[&str], look: Look) -> Result<As
 fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assembled, Error> {
     guess.check(mech)?;
     diagnose::inertias(mech)?;
-    let units = units(&mass_matrix(mech, guess));
+    let units = units(mech, guess);
     let mut ways = Ways {
         mech,
         guess,

@@ -8,7 +8,9 @@ use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
+use crate::modes::{
+    INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, quaternions, units,
+};
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
@@ -40,7 +42,8 @@ pub struct Diagnosis {
     /// are.
     pub undetermined: Vec<String>,
     /// The least singular value of the independent rows of A, each of length 1 in the mass metric: 1 where they are at right angles to each
-    /// other, 0 at a singular position.
+    /// other, 0 at a singular position. Of a body turned by a quaternion rows count as of its angular velocity, with the mean of its moments
+    /// of inertia, so that they are as near to each other in any orientation.
     pub margin: f64,
     /// The constraints that come nearest to depending on each other.
     pub nearest: Vec<String>,
@@ -102,7 +105,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     }
     let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
     let (margin, nearest) = match only_here.is_empty() {
-        true => margin(&rows, &free),
+        true => margin(&apart_from_lengths(&mech, state, rows), &free),
         false => (0.0, only_here.clone()),
     };
     let position = free.iter().filter(|row| **row < spec.holonomic).count();
@@ -138,6 +141,7 @@ pub fn diagnose_along(
             let free: Vec<usize> = (0..mech.spec().m())
                 .filter(|row| !follow.contains(row))
                 .collect();
+            let rows = apart_from_lengths(&mech, &state, rows);
             (rank, margin(&rows, &free).0)
         });
         let (rank, margin) = found.map_err(|error| state.locate(error))?;
@@ -212,10 +216,30 @@ fn independent(solver: &mut Solver, state: &State) -> Result<(usize, DMatrix<f64
 
 /// The rows of A at `state`, each of length 1 in the mass metric.
 pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
-    let units = units(&mass_matrix(mech, state));
+    let units = units(mech, state);
     let mut rows = constraint_matrix(mech, state);
     measure(&mut rows, &units);
     normalise(&mut rows);
+    rows
+}
+
+/// Rows of A at `state`, measured and of length 1, but what they say of the lengths of quaternions, which the constraints of these keep: it
+/// depends on how a row is written, and beside these constraints on the orientation.
+fn apart_from_lengths(mech: &Prepared, state: &State, mut rows: DMatrix<f64>) -> DMatrix<f64> {
+    let mass = mass_matrix(mech, state);
+    for (own, _) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+        let along = rows.row(own).into_owned();
+        for (_, mut row) in rows.row_iter_mut().enumerate().filter(|(c, _)| *c != own) {
+            row -= &along * row.dot(&along);
+        }
+    }
+    for mut row in rows.row_iter_mut() {
+        let length = row.norm();
+        // Of a row that says nothing else rounding is left.
+        if length > INDEPENDENT {
+            row /= length;
+        }
+    }
     rows
 }
 

@@ -12,7 +12,7 @@ use crate::diagnosis::quoted;
 use crate::error::Error;
 use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::modes::{constraint_matrix, null_space, units};
 use crate::numbers::significant;
 
 mod curve;
@@ -163,7 +163,7 @@ impl Kinematics {
         let driven = held(self.mechanism.spec(), coordinates)?;
         let freedoms = |posture: &Posture| {
             let rows = constraint_matrix(&self.mechanism, &posture.state);
-            null_space(rows, &units(&mass_matrix(&self.mechanism, &posture.state))).ncols()
+            null_space(rows, &units(&self.mechanism, &posture.state)).ncols()
         };
         // Looked at only where forces are refused.
         let usual = LazyCell::new(|| self.postures.iter().map(freedoms).min());

@@ -11,7 +11,7 @@ use crate::diagnosis::quoted;
 use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
-use crate::modes::{mass_matrix, units};
+use crate::modes::units;
 use crate::nearby::neighbours;
 use crate::scan::or_one;
 
@@ -221,11 +221,10 @@ impl<'a> Sweep<'a> {
         }
         let held = self.held.iter().map(|j| (*j, self.start.q[*j], 0.0));
         fixed.extend(held);
-        let mass = mass_matrix(self.mech, self.start);
         let n = self.mech.spec().n();
         Curve {
             mech: self.mech,
-            units: units(&mass).insert_row(n, 1.0),
+            units: units(self.mech, self.start).insert_row(n, 1.0),
             fixed,
             time,
             lengths: Vec::new(),
