@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use models::{DoubleScottRussell, KnifeEdge, Model};
 use tests::assert_close;
-use ukcore::{Redundant, Simulation, State, diagnose, diagnose_along};
+use ukcore::{Mechanism, Redundant, Simulation, State, diagnose, diagnose_along};
 
 ukcore::multibody! {
     /// A slider-crank in points whose rod is as long as its crank: upright, crank and rod fold onto each other, and the slider may stay at
@@ -268,4 +268,69 @@ fn bodies_in_space_come_near_to_singular_positions_where_they_are() {
     let found = diagnose(&mechanism, &folding(mechanism.l, PI / 2.0)).unwrap();
     assert_eq!((found.degrees_of_freedom, found.margin), (3, 0.0));
     assert_eq!(found.only_here.len(), 1, "{found}");
+}
+
+ukcore::multibody! {
+    /// Crank, coupler and rocker of a spatial linkage whose coupler, between two balls, may spin about its own axis.
+    pub Rssr {
+        params { a = 0.2, b = 0.9, c = 0.6 }
+        bodies {
+            spatial crank { mass: 1.0, inertia: [0.001, 0.01, 0.01], centre: [a / 2.0, 0, 0] }
+            spatial coupler { mass: 1.0, inertia: [0.001, 0.07, 0.07], centre: [b / 2.0, 0, 0] }
+            spatial rocker { mass: 1.0, inertia: [0.001, 0.03, 0.03], centre: [c / 2.0, 0, 0] }
+        }
+        holonomic {
+            axle: hinge(ground.at([0, 0, 0]), crank.at([0, 0, 0]), [0, 0, 1])
+            p: ball(crank.at([a, 0, 0]), coupler.at([0, 0, 0]))
+            q: ball(coupler.at([b, 0, 0]), rocker.at([c, 0, 0]))
+            pivot: hinge(ground.at([0.8, 0.3, 0]), rocker.at([0, 0, 0]), [1, 0, 0], [0, 1, 0])
+        }
+        /// crank held, the rest guessed
+        start sketched {
+            [crank.e0, crank.e1, crank.e2, crank.e3] = [1, 0, 0, 0];
+            coupler.e0 near 1.0; rocker.e0 near 0.7; rocker.e2 near -0.7
+        }
+        /// crank free, too
+        start loose {
+            crank.e0 near 1.0; coupler.e0 near 1.0; rocker.e0 near 0.7; rocker.e1 near 0.1; rocker.e2 near -0.7; coupler.centre near [0.5, 0.15, 0.3]
+        }
+    }
+}
+
+/// A rod between balls is put together in one way, however it has spun. The rocker's hinge may be turned over: that is another.
+#[test]
+fn an_idle_spin_is_told_once_and_is_no_other_way_to_put_a_linkage_together() {
+    let linkage = Rssr::default().prepared();
+    for name in ["sketched", "loose"] {
+        let found = linkage.branches(name, &[].into()).unwrap();
+        let diagnosis = diagnose(&linkage, &found.state).unwrap();
+        assert_eq!(diagnosis.degrees_of_freedom, 2);
+        assert_eq!(diagnosis.idle, [("coupler".to_owned(), 1)]);
+        let told = "\nof these 1 is idle: `coupler` moves by itself while all else stays\n";
+        assert!(diagnosis.to_string().contains(told), "{diagnosis}");
+        let [other] = &found.alternatives[..] else {
+            panic!("{name}: {:?}", found.alternatives);
+        };
+        // The axis of the rocker that its hinge has along x of the ground is y of the body: turned over it points the other way.
+        let along = |state: &State| {
+            let [a, b, c, d] = [
+                Rssr::ROCKER_E0,
+                Rssr::ROCKER_E1,
+                Rssr::ROCKER_E2,
+                Rssr::ROCKER_E3,
+            ]
+            .map(|j| state.q[j]);
+            2.0 * (b * c - a * d)
+        };
+        assert_close(
+            "turned over",
+            along(other) * along(&found.state),
+            -1.0,
+            1e-9,
+        );
+    }
+    // What hangs on one body alone is there to move.
+    let door = Door::default();
+    let shut = at(&[door.w / 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert!(diagnose(&door, &shut).unwrap().idle.is_empty());
 }

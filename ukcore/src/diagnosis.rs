@@ -1,5 +1,6 @@
 //! What the constraints of a mechanism amount to at a state: degrees of freedom, what follows from what, and how near that is to change.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
@@ -9,7 +10,7 @@ use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{
-    INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, quaternions, units,
+    INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
 };
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
@@ -34,6 +35,9 @@ pub struct Diagnosis {
     pub degrees_of_freedom: usize,
     /// n less the rank of the holonomic rows: freedoms of position, more than those of motion where constraints are nonholonomic.
     pub freedoms_of_position: usize,
+    /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis, and
+    /// how many of the freedoms of motion these are.
+    pub idle: Vec<(String, usize)>,
     /// Constraints that follow from those declared before them.
     pub redundant: Vec<Redundant>,
     /// Of the redundant ones those that are not so at positions nearby: the state is a singular position.
@@ -105,7 +109,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     }
     let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
     let (margin, nearest) = match only_here.is_empty() {
-        true => margin(&apart_from_lengths(&mech, state, rows), &free),
+        true => margin(&apart_from_lengths(&mech, state, rows.clone()), &free),
         false => (0.0, only_here.clone()),
     };
     let position = free.iter().filter(|row| **row < spec.holonomic).count();
@@ -116,6 +120,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
         rank,
         degrees_of_freedom: n - rank,
         freedoms_of_position: n - position,
+        idle: idle(&mech, state, &rows),
         redundant: named(spec, &relations),
         only_here: names(&only_here),
         undetermined: names(&undetermined),
@@ -192,6 +197,50 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     (!rows.is_empty()).then(|| {
         format!("{rows} {how} each other there, so that reactions are not unique: end the run before, or do without them")
     })
+}
+
+/// The bodies that can move by themselves while all else stays, and in how many ways, where A has these `rows`, measured and of length 1. One
+/// that hangs on one other alone, or on the ground, is what it is there for.
+fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usize)> {
+    let spec = mech.spec();
+    let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
+    let mut bodies: Vec<&str> = (0..spec.n()).filter_map(body).collect();
+    bodies.dedup();
+    let lengths = quaternions(
+        mech,
+        &mass_matrix(mech, state),
+        &constraint_matrix(mech, state),
+    );
+    let pattern = spec.structure.jacobian_pattern;
+    let ways = |name: &&str| {
+        let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
+        let of = |row: usize| {
+            pattern
+                .iter()
+                .filter(move |(c, _)| *c == row)
+                .map(|(_, j)| *j)
+        };
+        let joins =
+            |c: &usize| of(*c).any(|j| own.contains(&j)) && lengths.iter().all(|(row, _)| row != c);
+        // What it shares rows with: other bodies, or the ground.
+        let mut neighbours: BTreeSet<Option<&str>> = BTreeSet::new();
+        for row in (0..spec.m()).filter(joins) {
+            let others = of(row).filter(|j| !own.contains(j));
+            let others: Vec<&str> = others.map(|j| body(j).unwrap_or(spec.coords[j])).collect();
+            match others.is_empty() {
+                true => neighbours.extend([None]),
+                false => neighbours.extend(others.into_iter().map(Some)),
+            }
+        }
+        if neighbours.len() < 2 {
+            return 0;
+        }
+        let (_, pivots) = pivoted(&rows.select_columns(&own));
+        let held = pivots.iter().filter(|pivot| **pivot > INDEPENDENT);
+        own.len() - held.count()
+    };
+    let ways = bodies.iter().map(|name| ((*name).to_owned(), ways(name)));
+    ways.filter(|(_, ways)| *ways > 0).collect()
 }
 
 /// The constraints that follow from those declared before them at `state`, where A has the rank `rank`.
@@ -344,6 +393,20 @@ impl fmt::Display for Diagnosis {
         )?;
         if self.freedoms_of_position != freedoms {
             write!(f, " ({} of position)", self.freedoms_of_position)?;
+        }
+        let idle: usize = self.idle.iter().map(|(_, ways)| ways).sum();
+        if idle > 0 {
+            let names: Vec<String> = self.idle.iter().map(|(name, _)| name.clone()).collect();
+            let are = if idle == 1 { "is" } else { "are" };
+            let alone = match names.len() {
+                1 => "moves by itself",
+                _ => "move by themselves",
+            };
+            let names = quoted(&names);
+            write!(
+                f,
+                "\nof these {idle} {are} idle: {names} {alone} while all else stays"
+            )?;
         }
         for redundant in &self.redundant {
             write!(f, "\n{redundant}")?;
