@@ -17,6 +17,11 @@ use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 use crate::spectrum::singular;
 
+mod dead_centre;
+
+use dead_centre::NEARLY;
+pub(crate) use dead_centre::{STILL, dead_centre, leader};
+
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;
 
@@ -166,8 +171,15 @@ fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String>
     let spec = mech.spec();
     let mut here = Evaluated::new(spec.n(), spec.m());
     here.dynamics(mech, *t, q, v);
-    let diagonal = here.mass.iter().step_by(spec.n() + 1).enumerate();
-    let gone = diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i));
+    let mass = DMatrix::from_vec(spec.n(), spec.n(), here.mass);
+    let rows = DMatrix::from_vec(spec.m(), spec.n(), here.jacobian);
+    // No orientation has inertia along its quaternion, which is a coordinate's own direction where axes agree.
+    let lengths = quaternions(mech, &mass, &rows);
+    let own = |i: &usize| lengths.iter().any(|(_, all)| all.contains(i));
+    let diagonal = mass.diagonal();
+    let diagonal = diagonal.iter().enumerate();
+    let gone =
+        diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i) && !own(i));
     let gone: Vec<String> = gone.map(|(i, _)| spec.coords[i].to_owned()).collect();
     (!gone.is_empty()).then(|| quoted(&gone))
 }
@@ -187,6 +199,12 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     if let (true, Some(gone)) = (found.undetermined.is_empty(), without_inertia(&mech, state)) {
         return Some(format!(
             "there is no inertia in {gone} with these parameters, by which reactions are divided: give it some, however little, or declare none"
+        ));
+    }
+    if let Some(Error::DeadCentre { constraints, .. }) = dead_centre(&mech, state, NEARLY) {
+        let drives = quoted(&constraints);
+        return Some(format!(
+            "what {drives} prescribes comes to a dead centre there, where reactions grow beyond all bounds: end the run before"
         ));
     }
     let (rows, how) = match found.undetermined.is_empty() {

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::Limit;
 use super::curve::{AT, Curve, End, Place, Rows};
 use crate::assemble::State;
-use crate::diagnosis::quoted;
+use crate::diagnosis::{leader, quoted};
 use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
@@ -373,7 +373,7 @@ impl<'a> Sweep<'a> {
         let spec = self.mech.spec();
         let n = spec.n();
         let way = place.way.rows(0, n);
-        let leader = way.icamax();
+        let leader = leader(spec, way.into_owned().as_slice());
         let mut state = self.state(curve, place);
         let moved = way.component_mul(&curve.units.rows(0, n));
         state.v = (moved / (way[leader] * curve.units[leader]))
