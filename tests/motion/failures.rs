@@ -1,7 +1,7 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
 use ukcore::simulate::Switching;
-use ukcore::{Error, Failure, Method, Simulation, State};
+use ukcore::{Error, Failure, Method, Simulation, State, lost_reactions};
 
 ukcore::multibody! {
     /// Two constraints on x + y that agree at t = 0 only.
@@ -303,6 +303,87 @@ fn a_jump_is_told_by_its_constraint_level_and_time() {
                     assert_eq!((*found, constraints[0].0.as_str()), (level, "drive"));
                 }
                 other => panic!("{switching:?}, {level}: {other}"),
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A four-bar linkage whose crank is turned by a motor until coupler and rocker are in one line, in space between hinges and balls. All
+    /// turns about z; x and y are as in the plane. A stand has the axes of the ground.
+    pub Stretched {
+        params { crank = 0.3, coupler = 0.2, rocker = 0.24, span = 0.4, w = 1.0, j = 0.003 }
+        bodies {
+            spatial arm { mass: 0.4, inertia: [j, j, j], centre: [crank / 2, 0, 0] }
+            spatial rod { mass: 0.3, inertia: [j, j, j], centre: [coupler / 2, 0, 0] }
+            spatial wing { mass: 0.5, inertia: [j, j, j], centre: [rocker / 2, 0, 0] }
+            spatial stand { mass: 1.0, inertia: [j, j, j] }
+        }
+        holonomic {
+            axle: hinge(ground.at([0, 0, 0]), arm.at([0, 0, 0]), [0, 0, 1])
+            elbow: universal(arm.at([crank, 0, 0]), rod.at([0, 0, 0]), [0, 0, 1], [0, 1, 0])
+            wrist: ball(rod.at([coupler, 0, 0]), wing.at([rocker, 0, 0]))
+            pivot: hinge(ground.at([span, 0, 0]), wing.at([0, 0, 0]), [0, 0, 1])
+            bolts: weld(ground.at([0, 0, 0]), stand.at([0, 0, 0]))
+            motor: drive(ground, arm, [0, 0, 1], 0.5 + w * t)
+        }
+        output { torque = reaction(motor) }
+        start ajar {
+            arm.e0 near cos(0.25); arm.e3 near sin(0.25); rod.e0 near cos(0.2); rod.e3 near sin(0.2); wing.e0 near cos(0.8); wing.e3 near sin(0.8);
+            stand.e0 near 1
+        }
+    }
+}
+
+/// Neither as a jump nor as stiff forces, by any method: the drive asks for more than the linkage reaches. Reactions that have grown beyond
+/// all bounds before are told so, too, and not laid on a body that would be without inertia in its quaternion.
+#[test]
+fn a_drive_that_comes_to_a_dead_centre_is_told() {
+    let mut linkage = Stretched::default();
+    let Stretched {
+        crank: a,
+        coupler: b,
+        rocker: c,
+        span: d,
+        ..
+    } = linkage;
+    let limit = ((a * a + d * d - (b + c).powi(2)) / (2.0 * a * d)).acos();
+    for w in [1.0, -0.5, 300.0] {
+        linkage.w = w;
+        let end = (limit.copysign(w) - 0.5) / w;
+        let start = linkage
+            .start("ajar", &[].into())
+            .expect("it can be put together");
+        for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+            for tolerance in [1e-3, 1e-7, 1e-11] {
+                let run = Simulation::new(&linkage).start(start.clone());
+                let run = run.method(method).tolerance(tolerance).until(2.0 * end);
+                let failure = run.expect_err("a dead centre");
+                let (t, error) = place(&failure);
+                let place = format!("{method}, {tolerance:e}, {w}: {error}");
+                assert!((t - end).abs() < 1e-8 * end, "{place}: {t}, not {end}");
+                let Error::DeadCentre {
+                    constraints,
+                    leader,
+                } = error
+                else {
+                    panic!("{place}");
+                };
+                assert_eq!(constraints, &["motor"], "{place}");
+                assert!(
+                    leader.starts_with("wing.") || leader.starts_with("rod."),
+                    "{place}"
+                );
+                assert!(
+                    error.to_string().contains("cannot follow `motor` beyond"),
+                    "{place}"
+                );
+                let last = failure.trajectory.last().expect("samples").to_state();
+                let told = lost_reactions(&linkage, &last).expect("they are lost");
+                assert!(
+                    told.starts_with("what `motor` prescribes comes to a dead centre"),
+                    "{told}"
+                );
             }
         }
     }

@@ -169,7 +169,7 @@ fn a_slider_crank_by_its_ram_has_both_limits() {
     let text = found.limits[1].to_string();
     assert_eq!(
         text,
-        "`ram.x` cannot pass 0.4 m: `knee.x`, `wrist.x` hold it; there `crank.angle` moves most, and passes as a drive"
+        "`ram.x` goes no further than 0.4 m: a dead centre, where `knee.x`, `wrist.x` hold it while `crank.angle` goes on; to pass it, drive `crank.angle`"
     );
     let (r, l) = (press.r, press.l);
     let angles = found.coordinate("crank.angle").unwrap();
@@ -303,11 +303,11 @@ fn four_bars_turn_or_swing() {
     }
     let text = found.limits[1].to_string();
     assert!(
-        text.starts_with("`bar[0].angle` cannot pass 1.33"),
+        text.starts_with("`bar[0].angle` goes no further than 1.33"),
         "{text}"
     );
     assert!(
-        text.contains(": `p`, `q`, `r` hold it; there `bar["),
+        text.contains(": a dead centre, where `p`, `q`, `r` hold it while `bar["),
         "{text}"
     );
     assert_eq!(

@@ -11,10 +11,14 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, units};
+use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, quaternions, units};
 use crate::random::Random;
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
+
+mod walk;
+
+use walk::Walk;
 
 /// A state put together from a guess, and how else it could have been.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +58,8 @@ pub fn assemble_with_alternatives(
 /// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved
 /// and the other ways that are as near. Where coordinates stay free it searches two dozen times, so it is for looking rather than for
 /// loops, and branches far from the guess may be missed. Where none does, ways are compared by what hangs together: of the legs of a walker
-/// each other way is that of one leg, as near as this one is.
+/// each other way is that of one leg, as near as this one is. Places that the straightest walk along the constraints leads from one to the
+/// other are one way, as those of a rod between balls that spins idly.
 ///
 /// # Errors
 /// What [`assemble`](crate::assemble()) reports.
@@ -110,14 +115,14 @@ fn looked(mech: Prepared, guess: &State, hold: &[&str], look: Look) -> Result<As
 fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assembled, Error> {
     guess.check(mech)?;
     diagnose::inertias(mech)?;
-    let units = units(&mass_matrix(mech, guess));
+    let units = units(mech, guess);
     let mut ways = Ways {
         mech,
         guess,
         held,
         weights: DVector::from_fn(units.len(), |j, _| weight(&held.untold, j) / units[j]),
         units,
-        extents: Vec::new(),
+        places: Places::new(mech, guess, Vec::new()),
         found: Vec::new(),
     };
     let states = ways.near(look).into_iter();
@@ -145,8 +150,7 @@ struct Ways<'a> {
     /// What distances are measured by.
     units: DVector<f64>,
     weights: DVector<f64>,
-    /// How large coordinates are.
-    extents: Vec<f64>,
+    places: Places,
     found: Vec<Way>,
 }
 
@@ -157,8 +161,8 @@ impl Ways<'_> {
         let mut search = Search::new(mech, guess, &self.held.positions);
         search.untold.clone_from(&self.held.untold);
         let at = At::new(mech, Level::Position, guess.t, &guess.v);
-        self.extents = search.manifold.extents(&at, &guess.q);
-        let sizes = self.extents.iter().zip(self.weights.iter());
+        self.places.extents = search.manifold.extents(&at, &guess.q);
+        let sizes = self.places.extents.iter().zip(self.weights.iter());
         let none = NONE * sizes.fold(0.0, |most: f64, (extent, weight)| most.max(extent * weight));
         if let Some(ways) = search.ways(&at, &guess.q, (AS_NEAR, none)) {
             return ways;
@@ -171,7 +175,20 @@ impl Ways<'_> {
         let nearest = self.found.first().map_or(0.0, |way| way.distance);
         let bound = AS_NEAR * nearest.max(none);
         let near = self.found.iter().take_while(|way| way.distance <= bound);
-        near.map(|way| way.q.clone()).collect()
+        let walk = Walk {
+            mech,
+            held: &self.held.positions,
+            places: &self.places,
+        };
+        // What coordinates that stay free lead to is the same way, as a rod between balls that spins idly.
+        let mut apart: Vec<Vec<f64>> = Vec::new();
+        for Way { q, .. } in near {
+            let mut known = apart.iter();
+            if !known.any(|known| walk.reaches(&mut search, &at, q, known)) {
+                apart.push(q.clone());
+            }
+        }
+        apart
     }
 
     fn seek(&mut self) {
@@ -183,7 +200,7 @@ impl Ways<'_> {
             let mut q = guess.q.clone();
             // Ever farther off.
             let share = k as f64 / BEGINNINGS as f64;
-            let extents = &self.extents;
+            let extents = &self.places.extents;
             scatter(mech, &mut q, &search.free, share, extents, &mut random);
             if search.manifold.search(&at, &guess.q, &mut q).is_ok() {
                 self.approach(&mut search, &at, &mut q);
@@ -251,9 +268,8 @@ impl Ways<'_> {
     /// Keeps `q`, unless it is known, but for whole turns; of places that differ by these the nearest.
     fn enter(&mut self, q: Vec<f64>) {
         let distance = self.distance(&q);
-        let angles = self.mech.spec().structure.angles;
-        let same = |way: &&mut Way| same_place(angles, &self.extents, &way.q, &q);
-        match self.found.iter_mut().find(same) {
+        let places = &self.places;
+        match self.found.iter_mut().find(|way| places.are_one(&way.q, &q)) {
             Some(way) if distance < way.distance => *way = Way { q, distance },
             Some(_) => {}
             None => self.found.push(Way { q, distance }),
@@ -262,18 +278,18 @@ impl Ways<'_> {
 
     fn assembled(&self, state: State, others: Vec<State>) -> Assembled {
         // Near a position in which branches meet, searches that end in different steps tell of one place several times.
-        let angles = self.mech.spec().structure.angles;
         let mut alternatives: Vec<State> = Vec::new();
         for other in others {
-            let same = |known: &State| same_place(angles, &self.extents, &known.q, &other.q);
+            let same = |known: &State| self.places.are_one(&known.q, &other.q);
             if !same(&state) && !alternatives.iter().any(same) {
                 alternatives.push(other);
             }
         }
         let change = |j: &usize| state.q[*j] - self.guess.q[*j];
         let mut moved: Vec<usize> = (0..state.q.len()).collect();
-        moved
-            .retain(|j| !self.held.untold.contains(j) && change(j).abs() > NONE * self.extents[*j]);
+        moved.retain(|j| {
+            !self.held.untold.contains(j) && change(j).abs() > NONE * self.places.extents[*j]
+        });
         let far = |j: &usize| (change(j) / self.units[*j]).abs();
         moved.sort_by(|a, b| far(b).total_cmp(&far(a)));
         let coords = self.mech.spec().coords;
@@ -286,13 +302,47 @@ impl Ways<'_> {
     }
 }
 
-/// Whether `q` is where `known` is, but for whole turns of `angles`, beside coordinates as large as `extents` say.
-fn same_place(angles: &[usize], extents: &[f64], known: &[f64], q: &[f64]) -> bool {
-    let mut turned = known.to_vec();
-    for j in angles {
-        let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
-        turned[*j] += turns * std::f64::consts::TAU;
+/// What tells places apart.
+struct Places {
+    /// Coordinates whose whole turns change nothing.
+    angles: &'static [usize],
+    /// Those of quaternions, which are the same orientation with the other sign.
+    quaternions: Vec<Vec<usize>>,
+    /// How large coordinates are.
+    extents: Vec<f64>,
+}
+
+impl Places {
+    /// Of places beside the one `at`.
+    fn new(mech: &Prepared, at: &State, extents: Vec<f64>) -> Self {
+        let found = quaternions(mech, &mass_matrix(mech, at), &constraint_matrix(mech, at));
+        let found = found.into_iter().map(|(_, all)| all);
+        Places {
+            angles: mech.spec().structure.angles,
+            quaternions: found.filter(|all| all.len() == 4).collect(),
+            extents,
+        }
     }
-    let mut all = turned.iter().zip(q).zip(extents);
-    all.all(|((a, b), extent)| (a - b).abs() <= 1e-3 * extent)
+
+    /// The place `known` by the numbers that are next to `q`.
+    fn turned(&self, known: &[f64], q: &[f64]) -> Vec<f64> {
+        let mut turned = known.to_vec();
+        for j in self.angles {
+            let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
+            turned[*j] += turns * std::f64::consts::TAU;
+        }
+        for all in &self.quaternions {
+            if all.iter().map(|j| turned[*j] * q[*j]).sum::<f64>() < 0.0 {
+                all.iter().for_each(|j| turned[*j] = -turned[*j]);
+            }
+        }
+        turned
+    }
+
+    /// Whether `q` is where `known` is.
+    fn are_one(&self, known: &[f64], q: &[f64]) -> bool {
+        let turned = self.turned(known, q);
+        let mut all = turned.iter().zip(q).zip(&self.extents);
+        all.all(|((a, b), extent)| (a - b).abs() <= 1e-3 * extent)
+    }
 }

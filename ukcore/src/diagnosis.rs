@@ -1,5 +1,6 @@
 //! What the constraints of a mechanism amount to at a state: degrees of freedom, what follows from what, and how near that is to change.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
@@ -8,11 +9,18 @@ use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
+use crate::modes::{
+    INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
+};
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 use crate::spectrum::singular;
+
+mod dead_centre;
+
+use dead_centre::NEARLY;
+pub(crate) use dead_centre::{STILL, dead_centre, leader};
 
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;
@@ -32,6 +40,9 @@ pub struct Diagnosis {
     pub degrees_of_freedom: usize,
     /// n less the rank of the holonomic rows: freedoms of position, more than those of motion where constraints are nonholonomic.
     pub freedoms_of_position: usize,
+    /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis, and
+    /// how many of the freedoms of motion these are.
+    pub idle: Vec<(String, usize)>,
     /// Constraints that follow from those declared before them.
     pub redundant: Vec<Redundant>,
     /// Of the redundant ones those that are not so at positions nearby: the state is a singular position.
@@ -40,7 +51,8 @@ pub struct Diagnosis {
     /// are.
     pub undetermined: Vec<String>,
     /// The least singular value of the independent rows of A, each of length 1 in the mass metric: 1 where they are at right angles to each
-    /// other, 0 at a singular position.
+    /// other, 0 at a singular position. Of a body turned by a quaternion rows count as of its angular velocity, with the mean of its moments
+    /// of inertia, so that they are as near to each other in any orientation.
     pub margin: f64,
     /// The constraints that come nearest to depending on each other.
     pub nearest: Vec<String>,
@@ -102,7 +114,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     }
     let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
     let (margin, nearest) = match only_here.is_empty() {
-        true => margin(&rows, &free),
+        true => margin(&apart_from_lengths(&mech, state, rows.clone()), &free),
         false => (0.0, only_here.clone()),
     };
     let position = free.iter().filter(|row| **row < spec.holonomic).count();
@@ -113,6 +125,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
         rank,
         degrees_of_freedom: n - rank,
         freedoms_of_position: n - position,
+        idle: idle(&mech, state, &rows),
         redundant: named(spec, &relations),
         only_here: names(&only_here),
         undetermined: names(&undetermined),
@@ -138,6 +151,7 @@ pub fn diagnose_along(
             let free: Vec<usize> = (0..mech.spec().m())
                 .filter(|row| !follow.contains(row))
                 .collect();
+            let rows = apart_from_lengths(&mech, &state, rows);
             (rank, margin(&rows, &free).0)
         });
         let (rank, margin) = found.map_err(|error| state.locate(error))?;
@@ -157,8 +171,15 @@ fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String>
     let spec = mech.spec();
     let mut here = Evaluated::new(spec.n(), spec.m());
     here.dynamics(mech, *t, q, v);
-    let diagonal = here.mass.iter().step_by(spec.n() + 1).enumerate();
-    let gone = diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i));
+    let mass = DMatrix::from_vec(spec.n(), spec.n(), here.mass);
+    let rows = DMatrix::from_vec(spec.m(), spec.n(), here.jacobian);
+    // No orientation has inertia along its quaternion, which is a coordinate's own direction where axes agree.
+    let lengths = quaternions(mech, &mass, &rows);
+    let own = |i: &usize| lengths.iter().any(|(_, all)| all.contains(i));
+    let diagonal = mass.diagonal();
+    let diagonal = diagonal.iter().enumerate();
+    let gone =
+        diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i) && !own(i));
     let gone: Vec<String> = gone.map(|(i, _)| spec.coords[i].to_owned()).collect();
     (!gone.is_empty()).then(|| quoted(&gone))
 }
@@ -180,6 +201,12 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
             "there is no inertia in {gone} with these parameters, by which reactions are divided: give it some, however little, or declare none"
         ));
     }
+    if let Some(Error::DeadCentre { constraints, .. }) = dead_centre(&mech, state, NEARLY) {
+        let drives = quoted(&constraints);
+        return Some(format!(
+            "what {drives} prescribes comes to a dead centre there, where reactions grow beyond all bounds: end the run before"
+        ));
+    }
     let (rows, how) = match found.undetermined.is_empty() {
         true => (&found.nearest, "all but imply"),
         false => (&found.undetermined, "imply"),
@@ -188,6 +215,50 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     (!rows.is_empty()).then(|| {
         format!("{rows} {how} each other there, so that reactions are not unique: end the run before, or do without them")
     })
+}
+
+/// The bodies that can move by themselves while all else stays, and in how many ways, where A has these `rows`, measured and of length 1. One
+/// that hangs on one other alone, or on the ground, is what it is there for.
+fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usize)> {
+    let spec = mech.spec();
+    let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
+    let mut bodies: Vec<&str> = (0..spec.n()).filter_map(body).collect();
+    bodies.dedup();
+    let lengths = quaternions(
+        mech,
+        &mass_matrix(mech, state),
+        &constraint_matrix(mech, state),
+    );
+    let pattern = spec.structure.jacobian_pattern;
+    let ways = |name: &&str| {
+        let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
+        let of = |row: usize| {
+            pattern
+                .iter()
+                .filter(move |(c, _)| *c == row)
+                .map(|(_, j)| *j)
+        };
+        let joins =
+            |c: &usize| of(*c).any(|j| own.contains(&j)) && lengths.iter().all(|(row, _)| row != c);
+        // What it shares rows with: other bodies, or the ground.
+        let mut neighbours: BTreeSet<Option<&str>> = BTreeSet::new();
+        for row in (0..spec.m()).filter(joins) {
+            let others = of(row).filter(|j| !own.contains(j));
+            let others: Vec<&str> = others.map(|j| body(j).unwrap_or(spec.coords[j])).collect();
+            match others.is_empty() {
+                true => neighbours.extend([None]),
+                false => neighbours.extend(others.into_iter().map(Some)),
+            }
+        }
+        if neighbours.len() < 2 {
+            return 0;
+        }
+        let (_, pivots) = pivoted(&rows.select_columns(&own));
+        let held = pivots.iter().filter(|pivot| **pivot > INDEPENDENT);
+        own.len() - held.count()
+    };
+    let ways = bodies.iter().map(|name| ((*name).to_owned(), ways(name)));
+    ways.filter(|(_, ways)| *ways > 0).collect()
 }
 
 /// The constraints that follow from those declared before them at `state`, where A has the rank `rank`.
@@ -212,10 +283,30 @@ fn independent(solver: &mut Solver, state: &State) -> Result<(usize, DMatrix<f64
 
 /// The rows of A at `state`, each of length 1 in the mass metric.
 pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
-    let units = units(&mass_matrix(mech, state));
+    let units = units(mech, state);
     let mut rows = constraint_matrix(mech, state);
     measure(&mut rows, &units);
     normalise(&mut rows);
+    rows
+}
+
+/// Rows of A at `state`, measured and of length 1, but what they say of the lengths of quaternions, which the constraints of these keep: it
+/// depends on how a row is written, and beside these constraints on the orientation.
+fn apart_from_lengths(mech: &Prepared, state: &State, mut rows: DMatrix<f64>) -> DMatrix<f64> {
+    let mass = mass_matrix(mech, state);
+    for (own, _) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+        let along = rows.row(own).into_owned();
+        for (_, mut row) in rows.row_iter_mut().enumerate().filter(|(c, _)| *c != own) {
+            row -= &along * row.dot(&along);
+        }
+    }
+    for mut row in rows.row_iter_mut() {
+        let length = row.norm();
+        // Of a row that says nothing else rounding is left.
+        if length > INDEPENDENT {
+            row /= length;
+        }
+    }
     rows
 }
 
@@ -320,6 +411,20 @@ impl fmt::Display for Diagnosis {
         )?;
         if self.freedoms_of_position != freedoms {
             write!(f, " ({} of position)", self.freedoms_of_position)?;
+        }
+        let idle: usize = self.idle.iter().map(|(_, ways)| ways).sum();
+        if idle > 0 {
+            let names: Vec<String> = self.idle.iter().map(|(name, _)| name.clone()).collect();
+            let are = if idle == 1 { "is" } else { "are" };
+            let alone = match names.len() {
+                1 => "moves by itself",
+                _ => "move by themselves",
+            };
+            let names = quoted(&names);
+            write!(
+                f,
+                "\nof these {idle} {are} idle: {names} {alone} while all else stays"
+            )?;
         }
         for redundant in &self.redundant {
             write!(f, "\n{redundant}")?;

@@ -226,7 +226,7 @@ impl Search {
         state.v.fill(0.0);
         let solved = self.solver.solve(state.t, &state.q, &state.v)?;
         let mass = mass_matrix(&self.mech, &state);
-        let units = units(&mass);
+        let units = units(&self.mech, &state);
         let mut assembly = Assembly::new(&self.mech, &state, &self.held);
         let at = At::new(&self.mech, Level::Position, state.t, &state.v);
         let extents = assembly.manifold.extents(&at, &state.q);

@@ -127,6 +127,19 @@ pub enum Error {
         /// Names of the constraints, with their residual after the shortest step.
         constraints: Vec<(String, f64)>,
     },
+    /// What these constraints prescribe by the time has come to the limit of its motion: a dead centre, where it would have to stand still
+    /// while the mechanism goes on.
+    #[error(
+        "the mechanism cannot follow {} beyond this position, a dead centre: what is driven has come to the limit of its motion and would stand \
+         still, while `{leader}` goes on; prescribe less (`kinematics` tells how far a drive goes), end the run before, or drive `{leader}` instead",
+        quoted(constraints)
+    )]
+    DeadCentre {
+        /// Names of the constraints that prescribe the motion.
+        constraints: Vec<String>,
+        /// The coordinate that moves most there, measured by the root of its inertia, or an angle that moves at least half as far.
+        leader: String,
+    },
     /// Steps became so small that the run does not get on.
     #[error("{}", too_small(*step, fastest.as_ref()))]
     StepTooSmall {

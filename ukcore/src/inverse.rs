@@ -6,7 +6,7 @@ use crate::assemble::{State, held};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix, measure, null_space, units};
+use crate::modes::{constraint_matrix, measure, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum::singular;
 
@@ -94,7 +94,7 @@ impl Inverse {
         let solution = self.solver.solve(*t, q, v)?;
         let (mech, driven) = (self.solver.mechanism(), &self.driven);
         let spec = mech.spec();
-        let units = units(&mass_matrix(mech, state));
+        let units = units(mech, state);
         let rows = constraint_matrix(mech, state);
         let joints: Vec<usize> = (0..spec.m()).filter(|row| !driven.contains(row)).collect();
         // In displacements that the joints allow no force of theirs does work: there the motors are alone.
@@ -144,7 +144,7 @@ pub fn inverse_forces(
     let acceleration = DVector::from_column_slice(acceleration);
     let rows = DMatrix::from_vec(m, n, terms.jacobian);
     let mass = DMatrix::from_vec(n, n, terms.mass);
-    let units = units(&mass);
+    let units = units(&mech, state);
     let size = acceleration.component_div(&units).norm();
     for (row, b) in terms.rhs.iter().enumerate() {
         let entries = rows.row(row).transpose();

@@ -12,7 +12,7 @@ use crate::diagnosis::quoted;
 use crate::error::Error;
 use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::modes::{constraint_matrix, null_space, units};
 use crate::numbers::significant;
 
 mod curve;
@@ -43,7 +43,8 @@ pub struct Limit {
     pub state: State,
     /// The constraints that hold the drive there, such as those of two rods in one line.
     pub constraints: Vec<String>,
-    /// The coordinate that moves most there, measured by the root of its inertia: as a drive it passes.
+    /// The coordinate that moves most there, measured by the root of its inertia, or an angle that moves at least half as far: as a drive it
+    /// passes.
     pub leader: &'static str,
     units: Vec<&'static str>,
 }
@@ -163,7 +164,7 @@ impl Kinematics {
         let driven = held(self.mechanism.spec(), coordinates)?;
         let freedoms = |posture: &Posture| {
             let rows = constraint_matrix(&self.mechanism, &posture.state);
-            null_space(rows, &units(&mass_matrix(&self.mechanism, &posture.state))).ncols()
+            null_space(rows, &units(&self.mechanism, &posture.state)).ncols()
         };
         // Looked at only where forces are refused.
         let usual = LazyCell::new(|| self.postures.iter().map(freedoms).min());
@@ -200,13 +201,18 @@ impl Kinematics {
     }
 }
 
-/// In a sentence, such as "`bar[0].angle` cannot pass 1.333507 rad (76.404 deg): `p`, `q`, `r` hold it; there `bar[1].angle` moves most,
-/// and passes as a drive".
+/// In a sentence, such as "`bar[0].angle` goes no further than 1.333507 rad (76.404 deg): a dead centre, where `p`, `q`, `r` hold it while
+/// `bar[1].angle` goes on; to pass it, drive `bar[1].angle`".
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let drives = self.drives.iter().zip(&self.units);
-        let drives = drives.map(|((name, value), unit)| {
-            let told = format!("`{name}` cannot pass {}", significant(*value, 7));
+        let drives = self.drives.iter().zip(&self.units).enumerate();
+        let drives = drives.map(|(k, ((name, value), unit))| {
+            let no_further = if k == 0 {
+                "goes no further than"
+            } else {
+                "than"
+            };
+            let told = format!("`{name}` {no_further} {}", significant(*value, 7));
             match *unit {
                 "" => told,
                 "rad" => format!("{told} rad ({} deg)", significant(value.to_degrees(), 5)),
@@ -214,18 +220,26 @@ impl fmt::Display for Limit {
             }
         });
         write!(f, "{}", drives.collect::<Vec<_>>().join(", "))?;
-        if !self.constraints.is_empty() {
-            let hold = if self.constraints.len() == 1 {
-                "holds"
-            } else {
-                "hold"
-            };
-            write!(f, ": {} {hold} it", quoted(&self.constraints))?;
+        let it = match &self.drives[..] {
+            [("t", _)] => "what it drives",
+            [_] => "it",
+            _ => "them",
+        };
+        let leader = self.leader;
+        match &self.constraints[..] {
+            [] => write!(f, ": a dead centre, where `{leader}` goes on without {it}")?,
+            [one] => write!(
+                f,
+                ": a dead centre, where `{one}` holds {it} while `{leader}` goes on"
+            )?,
+            all => {
+                let all = quoted(all);
+                write!(
+                    f,
+                    ": a dead centre, where {all} hold {it} while `{leader}` goes on"
+                )?;
+            }
         }
-        write!(
-            f,
-            "; there `{}` moves most, and passes as a drive",
-            self.leader
-        )
+        write!(f, "; to pass it, drive `{leader}`")
     }
 }

@@ -15,6 +15,7 @@ use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
+use crate::spec::Structure;
 use crate::spectrum::eigenvalues;
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
@@ -67,7 +68,7 @@ impl Mode {
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
-    let units = units(&mass_matrix(&mech, state));
+    let units = units(&mech, state);
     let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
     let (flow, pace) = flow(&found, &units);
@@ -230,18 +231,57 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
     DMatrix::from_vec(m, n, jacobian)
 }
 
-/// No coordinate counts as lighter than this share of the heaviest. A quaternion's component that is all but 1 has next to no inertia along
-/// itself, however far it is carried by the others.
+/// No coordinate counts as lighter than this share of the heaviest, as one may be whose inertia vanishes at some states.
 const LIGHTEST: f64 = 1e-12;
 
-/// What coordinates with the inertia `mass` are measured by: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is
-/// no inertia at all.
-pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
-    let heaviest = mass.diagonal().max();
-    mass.diagonal().map(|m| match m > 0.0 {
+/// What coordinates are measured by at `state`: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is no inertia at
+/// all. Those of a [quaternion](quaternions) have one unit, by the mean inertia of the directions in which it turns, so that it does not
+/// depend on the orientation by which numbers the body is where it is.
+pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
+    let mass = mass_matrix(mech, state);
+    let mut inertia = mass.diagonal();
+    for (_, all) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+        let whole: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
+        let mean = whole / (all.len() - 1) as f64;
+        all.iter().for_each(|j| inertia[*j] = mean);
+    }
+    let heaviest = inertia.max();
+    inertia.map(|m| match m > 0.0 {
         true => m.max(LIGHTEST * heaviest).sqrt().recip(),
         false => 1.0,
     })
+}
+
+/// A product with M is none below this share of what its factors could make.
+const WEIGHTLESS: f64 = 1e-12;
+
+/// The constraints that keep the length of a quaternion, with its coordinates, where A has the entries `rows`: along their gradient nothing
+/// has inertia, as the kinetic energy of a body knows nothing of the quaternion's length.
+pub(crate) fn quaternions(
+    mech: &Prepared,
+    mass: &DMatrix<f64>,
+    rows: &DMatrix<f64>,
+) -> Vec<(usize, Vec<usize>)> {
+    let Structure {
+        solve,
+        jacobian_pattern,
+        ..
+    } = &mech.spec().structure;
+    let candidates = [solve.regular, solve.turned].concat().into_iter().map(|c| {
+        let entries = jacobian_pattern.iter().filter(|(row, _)| *row == c);
+        (c, entries.map(|(_, j)| *j).collect::<Vec<_>>())
+    });
+    let weightless = |(c, all): &(usize, Vec<usize>)| {
+        let inertia: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
+        let size = all.iter().fold(0.0_f64, |sum, j| sum.hypot(rows[(*c, *j)]));
+        let force = mass * rows.row(*c).transpose();
+        let mut forces = force.iter().enumerate();
+        let none = forces.all(|(i, f)| {
+            f.abs() <= WEIGHTLESS * size * (inertia * mass[(i, i)].max(inertia)).sqrt()
+        });
+        all.len() > 1 && inertia > 0.0 && none
+    };
+    candidates.filter(weightless).collect()
 }
 
 /// Divides each of `rows` that is not zero by its length.

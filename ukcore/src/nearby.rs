@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::assemble::State;
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::modes::{constraint_matrix, null_space, units};
 use crate::random::Random;
 use crate::scan::{all_finite, largest, or_one};
 
@@ -29,7 +29,7 @@ pub(crate) fn neighbours(mech: &Prepared, from: &State) -> impl Iterator<Item = 
 pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Option<State> {
     let spec = mech.spec();
     let n = spec.n();
-    let units = units(&mass_matrix(mech, from));
+    let units = units(mech, from);
     let free = null_space(constraint_matrix(mech, from), &units);
     let mut projector = Projector::new(mech);
     let size = or_one(largest(&from.q).max(projector.length(from.t, &from.q, &from.v)));

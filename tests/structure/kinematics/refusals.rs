@@ -64,7 +64,7 @@ fn what_does_not_decide_a_motion_is_refused() {
     let far = kinematics(&arm, &start, &[("x", 4.0..5.0), ("a", 0.0..1.0)], &[], 10);
     refused(
         far,
-        "do not come from the start to the begin of the sweep: `x` cannot pass",
+        "do not come from the start to the begin of the sweep: `x` goes no further than",
     );
     ukcore::multibody! {
         /// A follower on a cam with corners at the multiples of π.

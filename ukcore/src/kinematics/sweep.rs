@@ -7,11 +7,11 @@ use nalgebra::DVector;
 use super::Limit;
 use super::curve::{AT, Curve, End, Place, Rows};
 use crate::assemble::State;
-use crate::diagnosis::quoted;
+use crate::diagnosis::{leader, quoted};
 use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
-use crate::modes::{mass_matrix, units};
+use crate::modes::units;
 use crate::nearby::neighbours;
 use crate::scan::or_one;
 
@@ -221,11 +221,10 @@ impl<'a> Sweep<'a> {
         }
         let held = self.held.iter().map(|j| (*j, self.start.q[*j], 0.0));
         fixed.extend(held);
-        let mass = mass_matrix(self.mech, self.start);
         let n = self.mech.spec().n();
         Curve {
             mech: self.mech,
-            units: units(&mass).insert_row(n, 1.0),
+            units: units(self.mech, self.start).insert_row(n, 1.0),
             fixed,
             time,
             lengths: Vec::new(),
@@ -374,7 +373,7 @@ impl<'a> Sweep<'a> {
         let spec = self.mech.spec();
         let n = spec.n();
         let way = place.way.rows(0, n);
-        let leader = way.icamax();
+        let leader = leader(spec, way.into_owned().as_slice());
         let mut state = self.state(curve, place);
         let moved = way.component_mul(&curve.units.rows(0, n));
         state.v = (moved / (way[leader] * curve.units[leader]))

@@ -5,6 +5,7 @@ use super::vanishing::{Loss, Vanishing};
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::diagnose;
+use crate::diagnosis::{STILL as STANDS, dead_centre};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Singular, Step, Tolerance, Trouble};
@@ -300,6 +301,17 @@ pub(super) fn explain(
         if !constraints.is_empty() {
             trouble = Trouble::new(start, Error::Singular { constraints });
         }
+    }
+    let obstacle = matches!(
+        trouble.error,
+        Error::StepTooSmall { .. }
+            | Error::Singular { .. }
+            | Error::Jump { .. }
+            | Error::OffConstraint { .. }
+            | Error::Inconsistent { .. }
+    );
+    if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
+        trouble.error = limit;
     }
     if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
         let State { t, q, v } = &trouble.state;

@@ -91,7 +91,7 @@ impl Equations {
         let mut terms = Evaluated::new(n, m);
         terms.dynamics(mech, state.t, &state.q, &state.v);
         let mut mass = DMatrix::from_vec(n, n, terms.mass.clone());
-        let units = units(&mass);
+        let units = units(mech, state);
         let measured = |x: &[f64]| DVector::from_column_slice(x).component_mul(&units);
         let (force, nonideal) = (measured(&terms.force), measured(&terms.nonideal));
         let mut jacobian = DMatrix::from_vec(m, n, terms.jacobian.clone());

@@ -301,6 +301,7 @@ fn kind(error: &Error) -> &'static str {
         Error::NoDirection { .. } => "NoDirection",
         Error::Jump { .. } => "Jump",
         Error::Singular { .. } => "Singular",
+        Error::DeadCentre { .. } => "DeadCentre",
         _ => "Error",
     }
 }

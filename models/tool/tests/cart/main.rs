@@ -398,7 +398,7 @@ fn drives_are_swept_to_the_limits_of_motion() {
     // The rod, of 0.5 m, is level at both ends.
     for part in [
         "cart from `assembled`: 9 of 21 positions, `x` from -0.4 to 0.4\n",
-        "`x` cannot pass -0.5 m: `rod` holds it; there `y` moves most, and passes as a drive\n`x` cannot pass 0.5 m: ",
+        "`x` goes no further than -0.5 m: a dead centre, where `rod` holds it while `y` goes on; to pass it, drive `y`\n`x` goes no further than 0.5 m: ",
         "swing (deg)  -53.1301 at x = -0.4, to 53.1301 at 0.4\n",
     ] {
         assert!(told.contains(part), "{part} in {told}");
@@ -427,7 +427,7 @@ fn drives_are_swept_to_the_limits_of_motion() {
     fails(
         "kinematics cart --drive x=0.6..1 --hold s --csv -",
         1,
-        "no position of the sweep is reached: `x` cannot pass 0.5 m: `rod` holds it",
+        "no position of the sweep is reached: `x` goes no further than 0.5 m: a dead centre, where `rod` holds it",
     );
     fails(
         "kinematics cart --drive swing=0..1 --hold s",
