@@ -470,7 +470,7 @@ fn bounds_know_what_is_rounded() {
     }
 }
 
-/// Rods of half a metre beside others of a hundred thousand kilometres: what is small for the shortest counts, as far as rounding leaves it.
+/// Rods of half a metre beside others of a hundred thousand kilometres: what is small for the shortest counts as far as rounding leaves it.
 #[test]
 fn short_rods_beside_long_ones_keep_their_energy() {
     let mut outcomes = Outcomes {

@@ -26,8 +26,8 @@ enum Source {
 }
 
 impl Columns {
-    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body, where no column is called so, means all that
-    /// [belongs] to it.
+    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body, where no column is called so, means all
+    /// that [belongs] to it.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a name that is none, with the nearest.
