@@ -164,25 +164,17 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
         let (from, mut to) = (si(from)?, si(to)?);
         if let Some(step) = step {
             let step = si(step)?;
-            let steps = (to - from) / step;
-            let refusal = if k > 0 {
-                let first = &asked[0].0;
-                Some(format!(
-                    "`{name}` goes along with `{first}`, which alone has a step"
-                ))
-            } else if steps < 0.0 {
-                Some(format!(
-                    "`{name}`: steps of {step} lead from {from} away from {to}; give the step the other sign"
-                ))
-            } else if !(1.0 - 1e-9..MOST).contains(&steps) {
-                Some(format!(
+            if k > 0 {
+                return Err(Failure::Usage(format!(
+                    "`{name}` goes along with `{}`, which alone has a step",
+                    asked[0].0
+                )));
+            }
+            let steps = units::steps(from, to, step).map_err(Failure::value(name))?;
+            if !(1.0 - 1e-9..MOST).contains(&steps) {
+                return Err(Failure::Usage(format!(
                     "`{name}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}"
-                ))
-            } else {
-                None
-            };
-            if let Some(refusal) = refusal {
-                return Err(Failure::Usage(refusal));
+                )));
             }
             // A last step that rounding puts beyond the end is meant; what is left behind the last one is not swept.
             intervals = (steps * (1.0 + 1e-9)).floor() as usize;

@@ -119,6 +119,20 @@ pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
     Ok((name.to_owned(), Quantity::parse(value)?))
 }
 
+/// How many steps of `step` lead from `from` to `to`.
+///
+/// # Errors
+/// If they lead the other way.
+pub(crate) fn steps(from: f64, to: f64, step: f64) -> Result<f64, String> {
+    let steps = (to - from) / step;
+    if steps.is_finite() && steps < 0.0 {
+        return Err(format!(
+            "steps of {step} lead from {from} away from {to}; give the step the other sign, or swap the ends"
+        ));
+    }
+    Ok(steps)
+}
+
 /// Splits `NAME=…`; what is behind is called `values` where it is missing.
 pub(crate) fn split<'a>(text: &'a str, values: &str) -> Result<(&'a str, &'a str), String> {
     let Some((name, value)) = text.split_once('=') else {
