@@ -77,7 +77,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let speed = speed.map(|speed| speed.si_rate(unit(&ready, name)));
     let speed = speed.transpose().map_err(Failure::value("--speed"))?;
     let curves = args.plot.as_deref();
-    let curves = curves.map(|asked| over(&ready, name, asked));
+    let curves = curves.map(|asked| Curves::new(&ready.mechanism, name, asked));
     let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
     let found = match speed {
@@ -128,20 +128,6 @@ struct Found {
     /// Their names and units.
     efforts: Vec<(String, String)>,
     values: Vec<Vec<f64>>,
-}
-
-/// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
-fn over(ready: &Ready<'_>, name: &str, asked: &[String]) -> Result<Curves, Failure> {
-    let mut curves: Vec<String> = Vec::new();
-    for (k, curve) in asked.iter().enumerate() {
-        if k == 0 || name == "t" || curve.contains(',') {
-            curves.push(curve.clone());
-        } else {
-            let columns = Columns::named(&ready.mechanism, &[curve])?;
-            curves.extend(columns.names().map(|member| format!("{name},{member}")));
-        }
-    }
-    Curves::new(&ready.mechanism, &curves)
 }
 
 /// The unit of a coordinate, or of the time; none of what is neither, which the library has a word for.

@@ -5,7 +5,7 @@
 //! number = digits | "PI" ;                                         (without a sign between numbers the second is PI)
 //! ```
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use ukcore::Error;
 use ukunits::{Dimension, Refusal, Unit};
@@ -104,6 +104,19 @@ impl Quantity {
 /// The unit of a force or torque on a coordinate that is measured in `unit`; none where that is not known.
 pub(crate) fn effort(unit: &str) -> Option<String> {
     Unit::parse(unit).ok().map(|unit| unit.dimension().effort())
+}
+
+/// Whether `unit` is one of length.
+pub(crate) fn is_length(unit: &str) -> bool {
+    Unit::parse(unit).is_ok_and(|unit| unit.dimension() == Dimension::LENGTH)
+}
+
+/// What a turn is in `unit`; none where that is no unit of an angle.
+pub(crate) fn turn(unit: &str) -> Option<f64> {
+    let unit = Unit::parse(unit).ok()?;
+    let angle = unit.dimension() != Dimension::NUMBER
+        && unit.dimension().without_angle() == Dimension::NUMBER;
+    angle.then(|| unit.from_si(TAU))
 }
 
 /// A bare number.

@@ -189,13 +189,22 @@ fn curves_of_a_run_are_drawn() {
         .skip(1)
         .filter_map(|part| part.split('"').next())
         .max_by_key(|points| points.len());
-    let points = longest.expect("a curve").split_whitespace();
-    let across = points.filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
+    let longest = longest.expect("a curve");
+    let points = || longest.split_whitespace();
+    let across = points().filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
     let (low, high) = across.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
         (low.min(x), high.max(x))
     });
     // The axis goes from −0.4 to 0.4 over the frame, or from −0.391 to 0.392.
     assert!(high - low > 0.9 * 0.979 * 650.0, "{low} {high}");
+    // A metre is as long up: the bob swings by l sin 0.9 to either side, and by l (1 − cos 0.9) up.
+    let ups = points().filter_map(|point| point.split_once(',')?.1.parse::<f64>().ok());
+    let (top, bottom) = ups.fold((f64::INFINITY, 0.0_f64), |(top, bottom), y| {
+        (top.min(y), bottom.max(y))
+    });
+    let (wide, tall) = (2.0 * 0.9_f64.sin(), 1.0 - 0.9_f64.cos());
+    let ratio = (high - low) / (bottom - top);
+    assert!((ratio / (wide / tall) - 1.0).abs() < 0.01, "{ratio}");
     fails(
         "run cart --plot a.svg swnig",
         2,
