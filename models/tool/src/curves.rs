@@ -180,7 +180,7 @@ impl Curves {
             };
             let ((x, y), usual) = &kinds[panel[0]];
             match !usual && x == y && is_length(x) {
-                true => chart.to_scale(),
+                true => chart.drawn_to_scale(),
                 false => chart,
             }
         };
@@ -193,13 +193,12 @@ impl Curves {
 /// more than half a turn, while all its values lie within one. `turns` are those of both numbers, in their units, where they are such
 /// outputs.
 fn pieces(points: Vec<(f64, f64)>, turns: [Option<f64>; 2]) -> Vec<Vec<(f64, f64)>> {
-    let number: [fn(&(f64, f64)) -> f64; 2] = [|p| p.0, |p| p.1];
-    let least = |(number, turn): (fn(&(f64, f64)) -> f64, Option<f64>)| {
-        let (low, high) = extremes(points.iter().map(number));
+    let least = |(low, high): (f64, f64), turn: Option<f64>| {
         let turn = turn.filter(|turn| high - low <= (1.0 + 1e-9) * turn);
         turn.map_or(f64::INFINITY, |turn| 0.5 * turn)
     };
-    let [across, up] = [0, 1].map(|k| least((number[k], turns[k])));
+    let across = least(extremes(points.iter().map(|p| p.0)), turns[0]);
+    let up = least(extremes(points.iter().map(|p| p.1)), turns[1]);
     let joined =
         |p: &(f64, f64), q: &(f64, f64)| (q.0 - p.0).abs() <= across && (q.1 - p.1).abs() <= up;
     points.chunk_by(joined).map(<[_]>::to_vec).collect()

@@ -171,7 +171,7 @@ impl Chart {
     /// The chart with the shorter range widened about its middle, so that a distance is as long along either axis; as it is where one goes
     /// farther than twenty times the other, of which nothing would be seen.
     #[must_use]
-    pub(crate) fn to_scale(self) -> Self {
+    pub(crate) fn drawn_to_scale(self) -> Self {
         let legend = match self.legend {
             Legend::Above => legend_height(self.named().count()),
             _ => 0,
