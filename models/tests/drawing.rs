@@ -1,8 +1,8 @@
 //! Pictures: what is declared, and what bodies and joints give by themselves.
 
 use tests::{assert_all_close, assert_close};
-use ukcore::spec::ShapeKind::{Line, Spring, Support};
-use ukcore::{Mechanism, Prepared};
+use ukcore::Mechanism;
+use ukcore::spec::ShapeKind::{Line, Mark, Spring, Support};
 
 ukcore::multibody! {
     /// A crank, a plate that it carries, a loose body on a spring.
@@ -152,13 +152,15 @@ ukcore::multibody! {
     }
 }
 
-/// A spoke and the rim, from points that have so many coordinates.
-fn spoke_and_rim(mechanism: &Prepared, q: &[f64], dimension: usize) -> Vec<Vec<f64>> {
-    let drawing = mechanism.spec().drawing;
-    let mut numbers = vec![f64::NAN; drawing.numbers()];
-    mechanism.drawing(0.0, q, &vec![0.0; q.len()], &mut numbers);
-    let own = &numbers[..drawing.shapes[0].numbers];
-    own.chunks(dimension).map(<[f64]>::to_vec).collect()
+ukcore::multibody! {
+    /// A pinion, whose bearing a slot leads, on a rack.
+    pub Pinion {
+        bodies { planar pinion { mass: 1.0, inertia: 0.1 } }
+        holonomic {
+            bearing: slot(ground.at([0, 0.4]), pinion.at([0, 0]), [1, 0])
+            rolls: rack(ground.at([0, 0]), pinion.at([0, 0]), [1, 0], 0.4)
+        }
+    }
 }
 
 #[test]
@@ -167,23 +169,42 @@ fn what_rolls_has_a_rim_that_touches_the_ground() {
     // The axis turned about x by 0.6 rad, which leaves the lowest point at r cos 0.6 below the centre.
     let height = 0.4 * 0.6_f64.cos();
     let coin = [1.0, 2.0, height, cos, sin, 0.0, 0.0];
-    for (mechanism, q, up) in [
-        (Coin::default().prepared(), &coin[..], 2),
-        (Wheel::default().prepared(), &[1.0, 0.4, 0.3], 1),
+    // Rolled by an angle of −0.3 rad.
+    let wheel = [0.12, 0.4, -0.3];
+    // The rim, the places on the ground, the hub.
+    let coin_shapes = &[Line, Mark][..];
+    let wheel_shapes = &[Line, Support, Mark][..];
+    let pinion_shapes = &[Line, Support, Support, Mark][..];
+    for (mechanism, q, up, shapes) in [
+        (Coin::default().prepared(), &coin[..], 2, coin_shapes),
+        (Wheel::default().prepared(), &wheel, 1, wheel_shapes),
+        (Pinion::default().prepared(), &wheel, 1, pinion_shapes),
     ] {
-        let points = spoke_and_rim(&mechanism, q, up + 1);
+        let drawing = mechanism.spec().drawing;
+        let kinds: Vec<_> = drawing.shapes.iter().map(|shape| shape.kind).collect();
+        assert_eq!(kinds, shapes);
+        let mut numbers = vec![f64::NAN; drawing.numbers()];
+        mechanism.drawing(0.0, q, &vec![0.0; q.len()], &mut numbers);
+        // A spoke and the rim.
+        let points = numbers[..drawing.shapes[0].numbers].chunks(up + 1);
+        let points: Vec<&[f64]> = points.collect();
         let (centre, rim) = points.split_first().expect("a centre");
         assert_eq!(centre[..], q[..=up]);
         for point in rim {
             let square: f64 = point
                 .iter()
-                .zip(centre)
+                .zip(*centre)
                 .map(|(x, c)| (x - c) * (x - c))
                 .sum();
             assert_close("radius", square.sqrt(), 0.4, 1e-15);
         }
         let lowest = rim.iter().map(|p| p[up]).fold(f64::INFINITY, f64::min);
         assert!((-1e-15..2e-3).contains(&lowest), "{lowest}");
+        if up == 1 {
+            // The spoke turns with the body.
+            let spoke = [q[0] + 0.4 * q[2].cos(), q[1] + 0.4 * q[2].sin()];
+            assert_all_close("spoke", rim[0], &spoke, 1e-15);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use models::{FishRobot, Model, StartOptions};
 use std::f64::consts::PI;
 use tests::{Dense, Random, assert_all_close, assert_close, largest};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, Trajectory};
+use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State, Trajectory, assemble};
 
 /// A gait: A3, ω/π, φ in degrees; and what an independent integration (equations derived by a computer algebra system, tolerance 1e-9)
 /// gives for it: ẍ1(0), m/s², and the mean ẋ1 over t ∈ [3, 4] s, m/s.
@@ -87,25 +87,69 @@ fn paper_claims_on_the_sweeps() {
     grows(&[9, 8, 3, 7]);
 }
 
+/// The state at time `t` whose body is at `body` = (x1, y1, θ1), m and rad, and moves with `rate`: peduncle and fin follow from the gait
+/// and the joints (eqs. 40, 41, 44, 45, 48).
+fn follow(fish: &FishRobot, t: f64, body: [f64; 3], rate: [f64; 3]) -> State {
+    let (sin2, cos2) = (fish.w * t).sin_cos();
+    let (sin3, cos3) = (fish.w * t - fish.phi).sin_cos();
+    let gait = [
+        (fish.a2 * sin2, fish.a2 * fish.w * cos2),
+        (fish.a3 * sin3, fish.a3 * fish.w * cos3),
+    ];
+    let (mut q, mut v) = (body.to_vec(), rate.to_vec());
+    let ([mut x, mut y, mut angle], [mut vx, mut vy, mut spin]) = (body, rate);
+    // From the centre of a link to the joint behind it, and from there to the centre of the next.
+    let lengths = [[fish.a, fish.l2 / 2.0], [fish.l2 / 2.0, fish.b]];
+    for ([behind, before], (next, next_spin)) in lengths.into_iter().zip(gait) {
+        for (length, angle, spin) in [(behind, angle, spin), (before, next, next_spin)] {
+            let (sin, cos) = angle.sin_cos();
+            x += length * cos;
+            y += length * sin;
+            vx -= length * spin * sin;
+            vy += length * spin * cos;
+        }
+        (angle, spin) = (next, next_spin);
+        q.extend([x, y, angle]);
+        v.extend([vx, vy, spin]);
+    }
+    State { t, q, v }
+}
+
 #[test]
 fn start_is_consistent() {
     let mut random = Random::new(3);
     for _ in 0..10 {
         let fish: FishRobot = random.parameters(0.3);
+        let [x, y, angle] = std::array::from_fn(|_| random.signed());
         let options = StartOptions::new()
-            .with("x", random.signed())
-            .with("y", random.signed())
-            .with("angle", random.signed());
+            .with("x", x)
+            .with("y", y)
+            .with("angle", angle);
         let state = fish.start("table3", &options).expect("a start");
-        let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
-        let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
-        fish.prepared().residual(state.t, &state.q, &mut phi);
-        fish.prepared()
-            .residual_rate(state.t, &state.q, &state.v, &mut phi_dot);
-        assert!(
-            largest(&phi) < 1e-15 && largest(&phi_dot) < 1e-14,
-            "{phi:?} {phi_dot:?}"
-        );
+        let expected = follow(&fish, 0.0, [x, y, angle], [0.0; 3]);
+        assert_all_close("start, q", &state.q, &expected.q, 2e-15);
+        assert_all_close("start, v", &state.v, &expected.v, 1e-14);
+        // In the middle of a stroke, with the body under way.
+        let rate = std::array::from_fn(|_| random.signed());
+        let expected = follow(&fish, random.signed(), [x, y, angle], rate);
+        let mut guess = State {
+            t: expected.t,
+            ..state
+        };
+        guess.v[..3].copy_from_slice(&rate);
+        let found = assemble(&fish, &guess, &["x1", "y1", "th1"]).expect("a state");
+        assert_all_close("under way, q", &found.q, &expected.q, 2e-15);
+        assert_all_close("under way, v", &found.v, &expected.v, 1e-14);
+        for State { t, q, v } in [&found, &expected] {
+            let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
+            let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
+            fish.prepared().residual(*t, q, &mut phi);
+            fish.prepared().residual_rate(*t, q, v, &mut phi_dot);
+            assert!(
+                largest(&phi) < 1e-15 && largest(&phi_dot) < 1e-14,
+                "{phi:?} {phi_dot:?}"
+            );
+        }
     }
 }
 

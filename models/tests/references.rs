@@ -14,6 +14,7 @@ impl Visitor for Sound {
         let start = mechanism.default_start().expect("a start");
         for reference in M::references() {
             self.0 += 1;
+            assert!(!reference.states.is_empty(), "{}", M::ID);
             let mut t = start.t;
             for state in &reference.states {
                 assert!(state.t > t, "{}: {t}", M::ID);

@@ -1,5 +1,5 @@
-//! Peaucellier's cell goes through the position in which its rhombus is flat by every method, also where steps of the size that accuracy asks
-//! for are much shorter than one that would go over it from afar.
+//! Peaucellier's cell goes through the position in which its rhombus is flat by every method, also where steps of the size that accuracy
+//! asks for are much shorter than one that would go over it from afar.
 
 use ukcore::{Mechanism, Method, Prepared, Simulation};
 

@@ -1,5 +1,5 @@
-//! Tests of motions: runs in closed form and against oracles, singular positions, switches, failures. One program, so that what they share is
-//! linked once.
+//! Tests of motions: runs in closed form and against oracles, singular positions, switches, failures. One program, so that what they share
+//! is linked once.
 
 mod branches;
 mod cells;

@@ -323,7 +323,7 @@ fn an_arm_of_12_hinges_accelerates_alike_in_both_sets_of_coordinates() {
     let state = State {
         t: 0.0,
         q: (0..12).map(angle).collect(),
-        v: (0..12).map(|i| angle(i + 24)).collect(),
+        v: (0..12).map(|i| angle(i + 12)).collect(),
     };
     assert_eq!(Arm::SPEC.coords.len(), 12);
     let mut a = vec![0.0; 12];

@@ -10,8 +10,8 @@ use crate::numbers::full;
 pub enum Error {
     /// rank [M | Aᵀ] < n (the condition of eq. 19): these coordinates have neither mass nor constraint in some direction.
     #[error(
-        "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or add a \
-         constraint",
+        "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or \
+         add a constraint",
         quoted(coordinates)
     )]
     Underdetermined {
@@ -33,8 +33,8 @@ pub enum Error {
     },
     /// The state does not satisfy these constraints (φ or φ̇), and no nearby state does or was asked for.
     #[error(
-        "the state violates constraints at {level} level (residual): {}; a start has to be consistent, as one from `assemble` is, and on the way the \
-         constraints must not come to contradict each other",
+        "the state violates constraints at {level} level (residual): {}; a start has to be consistent, as one from `assemble` is, and on \
+         the way the constraints must not come to contradict each other",
         named(constraints)
     )]
     OffConstraint {
@@ -107,8 +107,9 @@ pub enum Error {
     /// rounding does not tell whether branches cross there or turn away from each other, or the motion can go on in many ways, as from the
     /// apex of a cone, or the run begins or ends too close to it.
     #[error(
-        "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end the run \
-         before it, start it elsewhere, or change lengths or the start such that the position is met exactly on the way or missed by more",
+        "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end \
+         the run before it, start it elsewhere, or change lengths or the start such that the position is met exactly on the \
+         way or missed by more",
         quoted(constraints)
     )]
     Singular {
@@ -117,8 +118,8 @@ pub enum Error {
     },
     /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps.
     #[error(
-        "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: smooth it, \
-         or end the run there and start another behind it",
+        "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: \
+         smooth it, or end the run there and start another behind it",
         named(constraints)
     )]
     Jump {
@@ -160,8 +161,8 @@ pub enum Error {
     /// Steps became tiny about a place where sign, abs, min or max switch or the direction v/|v| of a vector turns, as where dry friction
     /// brings a body to rest.
     #[error(
-        "{} a switch of sign, abs, min, max or v/|v| in the {}{}; dry friction that brings a body to rest is not found to stick: end the run at \
-         rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v), sqrt(sq(v) + sq(1e-3)) for |v|",
+        "{} a switch of sign, abs, min, max or v/|v| in the {}{}; dry friction that brings a body to rest is not found to stick: end the \
+         run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v), sqrt(sq(v) + sq(1e-3)) for |v|",
         if *step == 0.0 { "both branches of".to_owned() } else { format!("steps fell to {step:.1e} about") },
         terms.join(", "),
         if *step == 0.0 { " drive the motion back onto it" } else { "" }

@@ -111,8 +111,8 @@ impl Kinematics {
     /// [`Error::InvalidSetting`] where `t` is a drive, which prescribes all velocities; [`Error::NonFinite`].
     pub fn at_speed(mut self, speed: f64) -> Result<Self, Error> {
         if self.timed {
-            let reason = "is not free where `t` is a drive: velocities are those in time, and the constraints say how fast all moves with it; \
-                          leave it out";
+            let reason = "is not free where `t` is a drive: velocities are those in time, and the constraints say how fast all moves with \
+                          it; leave it out";
             return Err(Error::invalid("speed", reason));
         }
         if !speed.is_finite() {

@@ -25,9 +25,9 @@ const LEAST: f64 = 1e3 * f64::EPSILON;
 /// A row less than this share of what it is beside a state vanishes there.
 const VANISHING: f64 = 1.0 / 32.0;
 
-/// The shortest rod counts for so much of the longest that no more is asked of it than this share of that, which rounding takes, but for no
-/// more than [`SHORT`].
+/// Tolerances ask for no less than so many roundings of the longest rod.
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
+/// On that account the shortest rod counts for at most this share of the longest.
 const SHORT: f64 = 1e-3;
 
 /// What coordinates of a mechanism are measured by, in buffers allocated once.
@@ -169,8 +169,8 @@ impl Measure {
 
     /// How far coordinates go while the mechanism takes another shape, measured: as far as a turn by a radian, or of a quaternion by its
     /// length, takes what turns; where nothing does, as far as one coordinate goes until some row of A has changed by as much as it is: the
-    /// length of the shortest rod, but no less than what is known of the longest at the tolerance `relative`. `size` is that of a state, more
-    /// than 0 if it tells anything. `None` where constraints are linear, or there are none.
+    /// length of the shortest rod, but no less than what is known of the longest at the tolerance `relative`. `size` is that of a state,
+    /// more than 0 if it tells anything. `None` where constraints are linear, or there are none.
     pub(crate) fn reach(
         &self,
         mech: &Prepared,

@@ -172,9 +172,9 @@ fn positions(tangent: &DMatrix<f64>, part: &DVector<Complex<f64>>) -> DVector<Co
 /// A deviation is none beside the others below this part of it.
 const NEW: f64 = 1e-6;
 
-/// Modes of one eigenvalue have no shapes of their own: any sums of them are some. Those are taken in which a coordinate of each stays where
-/// it is in the others, so that of several copies of a mechanism each moves alone. Returns `other` so, and makes the shapes `among` so; `None`
-/// where `other` is none beside these, as where an eigenvalue has fewer shapes than it counts.
+/// Modes of one eigenvalue have no shapes of their own: any sums of them are some. Those are taken in which a coordinate of each stays
+/// where it is in the others, so that of several copies of a mechanism each moves alone. Returns `other` so, and makes the shapes `among`
+/// so; `None` where `other` is none beside these, as where an eigenvalue has fewer shapes than it counts.
 fn share_out(
     shapes: &mut [Found],
     among: &[usize],

@@ -174,16 +174,16 @@ impl Plan {
         let rows = |rows: &[usize]| rows.iter().map(|c| row(*c)).collect::<Vec<_>>();
         if !solve.regular.is_empty() {
             let text = format!(
-                "M alone is singular, at any state or at some: for the row a of A of each of {}, μ aᵀa was added to M and μ aᵀb to Q, with μ the trace \
-                 of M over |a|². It leaves q̈ as it is.",
+                "M alone is singular, at any state or at some: for the row a of A of each of {}, μ aᵀa was added to M and μ aᵀb to Q, \
+                 with μ the trace of M over |a|². It leaves q̈ as it is.",
                 rows(solve.regular).join(" ")
             );
             paragraph(f, &text)?;
         }
         if !solve.velocities.is_empty() {
             let text = format!(
-                "M is not expanded: the kinetic energy is written in the {} velocities {}, which are unknowns too, each eliminated with its \
-                 definition, the last first. Between them:",
+                "M is not expanded: the kinetic energy is written in the {} velocities {}, which are unknowns too, each eliminated with \
+                 its definition, the last first. Between them:",
                 solve.velocities.len(),
                 shortened(solve.velocities)
             );
@@ -191,8 +191,8 @@ impl Plan {
         }
         if !solve.turned.is_empty() {
             let text = format!(
-                "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at right angles, \
-                 so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
+                "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at \
+                 right angles, so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
                 shortened(&rows(solve.turned))
             );
             paragraph(f, &text)?;
@@ -236,8 +236,8 @@ impl Plan {
                     "given by other coordinates, their factor in the constraint being the same at any state"
                 }
                 Pivot::Turned(..) => {
-                    "two coordinates that are alone in a constraint, turned into the direction that it prescribes and the one that it leaves \
-                     free, which stands for both under the name of the first"
+                    "two coordinates that are alone in a constraint, turned into the direction that it prescribes and the one that it \
+                     leaves free, which stands for both under the name of the first"
                 }
                 Pivot::Coordinate(_) => "coordinates with inertia",
                 Pivot::Constraint(_) => "constraints whose coordinates are gone",
@@ -295,8 +295,8 @@ impl Plan {
         }
         if !solve.redundant.is_empty() {
             let text = format!(
-                "`{}` follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, those of whose \
-                 pivot and right-hand side nothing is left but rounding, or drift off the constraints",
+                "`{}` follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, \
+                 those of whose pivot and right-hand side nothing is left but rounding, or drift off the constraints",
                 self.spec.constraint_names(solve.redundant).join("` `")
             );
             item(f, &text)?;

@@ -156,8 +156,8 @@ impl Simulation {
     ///
     /// By default each coordinate has its own, the relative one times what is small for it. That is the size of the start (the largest
     /// coordinate or velocity there or, if that is more, the largest length in a holonomic constraint), but at most what takes the
-    /// mechanism into another shape: a turn by a radian, or the length of the shortest rod where nothing turns. The constraints tell what of
-    /// a length a radian is worth. So a mechanism takes the same steps in micrometres, metres and kilometres; where there is neither an
+    /// mechanism into another shape: a turn by a radian, or the length of the shortest rod where nothing turns. The constraints tell what
+    /// of a length a radian is worth. So a mechanism takes the same steps in micrometres, metres and kilometres; where there is neither an
     /// angle nor a curved constraint, the size is at most 1. Velocities have the same numbers as their coordinates, by the unit of time, or
     /// less where the motion is slower at its start and by its acceleration there.
     #[must_use]

@@ -5,6 +5,7 @@ use ukcore::spec::belongs;
 use ukcore::{Error, Prepared};
 
 use crate::failure::Failure;
+use crate::units::turn;
 
 /// Some quantities of a mechanism, in the order asked for.
 #[derive(Debug, Clone)]
@@ -26,8 +27,8 @@ enum Source {
 }
 
 impl Columns {
-    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body, where no column is called so, means all that
-    /// [belongs] to it.
+    /// Those called `names`, as in the first line of `run --csv`; the name of a family or body, where no column is called so, means all
+    /// that [belongs] to it.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a name that is none, with the nearest.
@@ -87,6 +88,16 @@ impl Columns {
             _ => String::new(),
         };
         self.chosen.iter().map(|(_, source)| unit(source)).collect()
+    }
+
+    /// What a turn is in the units of outputs that are angles; none of all else.
+    pub(crate) fn turns(&self) -> Vec<Option<f64>> {
+        let sources = self.chosen.iter().map(|(_, source)| source);
+        let turn = |(source, unit): (&Source, String)| match source {
+            Source::Output(_) => turn(&unit),
+            _ => None,
+        };
+        sources.zip(self.units()).map(turn).collect()
     }
 
     /// The names of the quantities, with units behind where these are known.

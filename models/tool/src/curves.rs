@@ -7,8 +7,10 @@ use crate::columns::Columns;
 use crate::command::path;
 use crate::failure::Failure;
 use crate::html::joined;
+use crate::numbers::extremes;
 use crate::output::WholeFile;
 use crate::plot::{Chart, Legend, Series, legend_height, round_range, stacked};
+use crate::units::is_length;
 
 /// More points than a picture shows.
 const MOST: usize = 20_000;
@@ -66,6 +68,8 @@ pub(crate) struct Curves {
     /// Horizontal and vertical quantities, of each curve one.
     over: Columns,
     of: Columns,
+    /// Over what a curve is drawn that does not say so.
+    usual: String,
     rows: Thinned<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -75,18 +79,22 @@ const HEIGHTS: (u32, u32) = (460, 300);
 const NAMED: usize = 4;
 
 impl Curves {
-    /// What is asked for by a file's name and curves: `NAME` over time, or `X,Y`, which is Y over X.
+    /// What is asked for by a file's name and curves: `NAME` over the quantity `usual`, or `X,Y`, which is Y over X.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names; [`Failure::Failed`] where the file cannot be written.
-    pub(crate) fn new(mechanism: &Prepared, asked: &[String]) -> Result<Self, Failure> {
+    pub(crate) fn new(
+        mechanism: &Prepared,
+        usual: &str,
+        asked: &[String],
+    ) -> Result<Self, Failure> {
         let [file, curves @ ..] = asked else {
             return Err(Failure::Usage("`--plot` needs a file".to_owned()));
         };
         let file = path(file).map_err(|e| Failure::Usage(format!("`--plot`: {e}")))?;
         let (mut over, mut of) = (Vec::new(), Vec::new());
         for curve in curves {
-            let (x, y) = curve.split_once(',').unwrap_or(("t", curve));
+            let (x, y) = curve.split_once(',').unwrap_or((usual, curve));
             let [x, y] = [x, y].map(|name| Columns::named(mechanism, &[name]));
             let (x, y) = (x?, y?);
             if curve.contains(',') && (x.names().count(), y.names().count()) != (1, 1) {
@@ -102,6 +110,7 @@ impl Curves {
             file: WholeFile::create(&file)?,
             over: Columns::named(mechanism, &over)?,
             of: Columns::named(mechanism, &of)?,
+            usual: usual.to_owned(),
             rows: Thinned::new(MOST),
         })
     }
@@ -117,7 +126,11 @@ impl Curves {
         let (over, of) = (self.over.labels(), self.of.labels());
         let kinds: Vec<_> = (self.over.units().into_iter())
             .zip(self.of.units())
-            .zip(self.over.names().map(|name| name == "t"))
+            .zip(self.over.names().map(|name| name == self.usual))
+            .collect();
+        let turns: Vec<[Option<f64>; 2]> = (self.over.turns().into_iter())
+            .zip(self.of.turns())
+            .map(|(x, y)| [x, y])
             .collect();
         let mut panels: Vec<Vec<usize>> = Vec::new();
         for k in 0..of.len() {
@@ -134,17 +147,19 @@ impl Curves {
         let chart = |panel: &Vec<usize>| {
             let single = panel.len() == 1;
             // The first lies on top, and comes first in the legend.
-            let series = panel.iter().rev().map(|&k| {
+            let series = panel.iter().rev().flat_map(|&k| {
                 // Where something is not finite there is a gap at least.
                 let points = rows.iter().map(|(x, y)| (x[k], y[k]));
                 let points = points.filter(|(x, y)| x.is_finite() && y.is_finite());
                 let points: Vec<_> = points.collect();
+                // A motion without length has no line.
+                let dots = if points.len() == 1 { 3 } else { 0 };
+                let pieces = pieces(points, turns[k]).into_iter().enumerate();
                 let label = if single { "" } else { &of[k] };
-                Series {
-                    // A motion without length has no line.
-                    dots: if points.len() == 1 { 3 } else { 0 },
-                    ..Series::new(label, k, points)
-                }
+                pieces.map(move |(piece, points)| Series {
+                    dots,
+                    ..Series::new(if piece == 0 { label } else { "" }, k, points)
+                })
             });
             let series: Vec<Series> = series.collect();
             let x = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
@@ -158,10 +173,15 @@ impl Curves {
                 true => (Legend::None, 0),
                 false => (Legend::Above, legend_height(panel.len())),
             };
-            Chart {
+            let chart = Chart {
                 legend,
                 size: (760, height + above),
                 ..Chart::new(joined(across), up, round_range(x), series.clone())
+            };
+            let ((x, y), usual) = &kinds[panel[0]];
+            match !usual && x == y && is_length(x) {
+                true => chart.drawn_to_scale(),
+                false => chart,
             }
         };
         let charts: Vec<Chart> = panels.iter().map(chart).collect();
@@ -169,9 +189,42 @@ impl Curves {
     }
 }
 
+/// The pieces of a line through `points` between which an output that tells an angle up to whole turns, as atan2 does, jumps by one: by
+/// more than half a turn, while all its values lie within one. `turns` are those of both numbers, in their units, where they are such
+/// outputs.
+fn pieces(points: Vec<(f64, f64)>, turns: [Option<f64>; 2]) -> Vec<Vec<(f64, f64)>> {
+    let least = |(low, high): (f64, f64), turn: Option<f64>| {
+        let turn = turn.filter(|turn| high - low <= (1.0 + 1e-9) * turn);
+        turn.map_or(f64::INFINITY, |turn| 0.5 * turn)
+    };
+    let across = least(extremes(points.iter().map(|p| p.0)), turns[0]);
+    let up = least(extremes(points.iter().map(|p| p.1)), turns[1]);
+    let joined =
+        |p: &(f64, f64), q: &(f64, f64)| (q.0 - p.0).abs() <= across && (q.1 - p.1).abs() <= up;
+    points.chunk_by(joined).map(<[_]>::to_vec).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn lines_are_broken_where_an_angle_is_told_anew() {
+        let turning = |t: f64| (t, (6.0 * t).sin().atan2((6.0 * t).cos()));
+        let points: Vec<(f64, f64)> = (0..300).map(|k| turning(0.01 * f64::from(k))).collect();
+        let whole = vec![points.clone()];
+        // 18 rad: through π thrice.
+        let found = pieces(points.clone(), [None, Some(TAU)]);
+        assert_eq!((found.len(), found.concat()), (4, points.clone()));
+        assert_eq!(pieces(points.clone(), [None, None]), whole);
+        let turned: Vec<(f64, f64)> = points.iter().map(|(t, a)| (*a, *t)).collect();
+        assert_eq!(pieces(turned, [Some(TAU), None]).len(), 4);
+        // What goes on growing is no such angle, however far its samples are apart.
+        let fast: Vec<(f64, f64)> = (0..9).map(|k| (f64::from(k), 5.0 * f64::from(k))).collect();
+        assert_eq!(pieces(fast.clone(), [None, Some(TAU)]), [fast]);
+        assert_eq!(pieces(Vec::new(), [None, Some(TAU)]).len(), 0);
+    }
 
     #[test]
     fn what_is_thinned_keeps_first_and_last_at_even_distances() {

@@ -77,7 +77,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let speed = speed.map(|speed| speed.si_rate(unit(&ready, name)));
     let speed = speed.transpose().map_err(Failure::value("--speed"))?;
     let curves = args.plot.as_deref();
-    let curves = curves.map(|asked| over(&ready, name, asked));
+    let curves = curves.map(|asked| Curves::new(&ready.mechanism, name, asked));
     let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
     let found = match speed {
@@ -130,20 +130,6 @@ struct Found {
     values: Vec<Vec<f64>>,
 }
 
-/// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
-fn over(ready: &Ready<'_>, name: &str, asked: &[String]) -> Result<Curves, Failure> {
-    let mut curves: Vec<String> = Vec::new();
-    for (k, curve) in asked.iter().enumerate() {
-        if k == 0 || name == "t" || curve.contains(',') {
-            curves.push(curve.clone());
-        } else {
-            let columns = Columns::named(&ready.mechanism, &[curve])?;
-            curves.extend(columns.names().map(|member| format!("{name},{member}")));
-        }
-    }
-    Curves::new(&ready.mechanism, &curves)
-}
-
 /// The unit of a coordinate, or of the time; none of what is neither, which the library has a word for.
 fn unit(ready: &Ready<'_>, name: &str) -> &'static str {
     let spec = ready.mechanism.spec();
@@ -164,25 +150,17 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
         let (from, mut to) = (si(from)?, si(to)?);
         if let Some(step) = step {
             let step = si(step)?;
-            let steps = (to - from) / step;
-            let refusal = if k > 0 {
-                let first = &asked[0].0;
-                Some(format!(
-                    "`{name}` goes along with `{first}`, which alone has a step"
-                ))
-            } else if steps < 0.0 {
-                Some(format!(
-                    "`{name}`: steps of {step} lead from {from} away from {to}; give the step the other sign"
-                ))
-            } else if !(1.0 - 1e-9..MOST).contains(&steps) {
-                Some(format!(
+            if k > 0 {
+                return Err(Failure::Usage(format!(
+                    "`{name}` goes along with `{}`, which alone has a step",
+                    asked[0].0
+                )));
+            }
+            let steps = units::steps(from, to, step).map_err(Failure::value(name))?;
+            if !(1.0 - 1e-9..MOST).contains(&steps) {
+                return Err(Failure::Usage(format!(
                     "`{name}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}"
-                ))
-            } else {
-                None
-            };
-            if let Some(refusal) = refusal {
-                return Err(Failure::Usage(refusal));
+                )));
             }
             // A last step that rounding puts beyond the end is meant; what is left behind the last one is not swept.
             intervals = (steps * (1.0 + 1e-9)).floor() as usize;

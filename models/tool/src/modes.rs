@@ -75,7 +75,15 @@ fn place(
     });
     match word {
         Some(word) => writeln!(out, "{id} from `{}` rests, {word}, at", ready.start)?,
-        None => writeln!(out, "{id} as in `{}`", ready.start)?,
+        None => {
+            let rests = state.v.iter().all(|v| *v == 0.0);
+            let what = if rests {
+                "rest position"
+            } else {
+                "steady motion"
+            };
+            writeln!(out, "{id} at its start `{}`, a {what}:", ready.start)?;
+        }
     }
     let names = ready.mechanism.spec().coords;
     let wide = width(names.iter().copied());
@@ -91,8 +99,8 @@ fn place(
             v => format!("   dot {}", number(v, speed)),
         };
         let unit = ready.mechanism.spec().coordinate_unit(i);
-        let line = format!("  {name:<wide$}  {}{rate} {unit}", number(*q, size));
-        writeln!(out, "{}", line.trim_end())?;
+        let line = format!("  {name:<wide$}  {} {unit}", number(*q, size));
+        writeln!(out, "{}{rate}", line.trim_end())?;
     }
     writeln!(out)
 }

@@ -45,6 +45,11 @@ const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
 /// The drawing library knows whole numbers alone: charts are drawn in so many parts of a pixel.
 const PARTS: u32 = 10;
+/// Room around the frame, on its right, and for the labels below and beside it, in pixels.
+const MARGIN: u32 = 10;
+const RIGHT: u32 = 18;
+const BELOW: u32 = 46;
+const BESIDE: u32 = 64;
 /// Height of a row of a legend above the frame.
 const ROW: u32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
@@ -163,6 +168,38 @@ impl Chart {
         svg(self.size, PARTS, |area| self.draw(area))
     }
 
+    /// The chart with the shorter range widened about its middle, so that a distance is as long along either axis; as it is where one goes
+    /// farther than twenty times the other, of which nothing would be seen.
+    #[must_use]
+    pub(crate) fn drawn_to_scale(self) -> Self {
+        let legend = match self.legend {
+            Legend::Above => legend_height(self.named().count()),
+            _ => 0,
+        };
+        let width = self.size.0 - MARGIN - RIGHT - BESIDE;
+        let height = self.size.1 - legend - 2 * MARGIN - BELOW;
+        let [(left, right), (bottom, top)] = [self.x, self.y];
+        let [across, up] = [right - left, top - bottom];
+        if across.abs().max(up.abs()) > 20.0 * across.abs().min(up.abs()) {
+            return self;
+        }
+        let pixel = (across.abs() / f64::from(width)).max(up.abs() / f64::from(height));
+        let wider = |from: f64, way: f64, pixels: u32| {
+            let (middle, half) = (from + 0.5 * way, 0.5 * pixel * f64::from(pixels));
+            (middle - half * way.signum(), middle + half * way.signum())
+        };
+        Chart {
+            x: wider(left, across, width),
+            y: wider(bottom, up, height),
+            ..self
+        }
+    }
+
+    /// The curves that the legend names; what lies on top comes first.
+    fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().rev().filter(|s| !s.label.is_empty())
+    }
+
     fn draw<'a>(&self, area: &Area<'a>) -> Result<(), DrawError<'a>> {
         let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
         match self.scale {
@@ -188,10 +225,10 @@ impl Chart {
         let frame = self.draw_legend_above(area)?;
         let area = frame.as_ref().unwrap_or(area);
         let mut chart = ChartBuilder::on(area)
-            .margin(10 * PARTS)
-            .margin_right(18 * PARTS)
-            .x_label_area_size(46 * PARTS)
-            .y_label_area_size(64 * PARTS)
+            .margin(MARGIN * PARTS)
+            .margin_right(RIGHT * PARTS)
+            .x_label_area_size(BELOW * PARTS)
+            .y_label_area_size(BESIDE * PARTS)
             .build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
@@ -254,8 +291,7 @@ impl Chart {
         if self.legend != Legend::Above {
             return Ok(None);
         }
-        // What lies on top comes first.
-        let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
+        let named = || self.named();
         let rows = named().count().div_ceil(2);
         let (legend, frame) = area.split_vertically(legend_height(named().count()) * PARTS);
         let column = self.size.0 as i32 / 2 - 10;

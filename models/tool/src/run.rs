@@ -144,7 +144,7 @@ impl Samples {
             rows.map_err(|e| Failure::file(path, &e))
         });
         let curves = args.plot.as_ref();
-        let curves = curves.map(|asked| Curves::new(mechanism, asked));
+        let curves = curves.map(|asked| Curves::new(mechanism, "t", asked));
         let film = args.animate.as_ref().map(|path| {
             let film = Film::new(ready, String::new())?;
             Ok::<_, Failure>((film, WholeFile::create(path)?))

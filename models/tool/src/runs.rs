@@ -162,7 +162,7 @@ impl Values {
             Values::Range(range) => range,
         };
         let [first, last, step] = [first.si(declared)?, last.si(declared)?, step.si(declared)?];
-        let steps = (last - first) / step;
+        let steps = units::steps(first, last, step)?;
         if !(0.0..MOST).contains(&steps) {
             return Err(format!(
                 "steps of {step} do not lead from {first} to {last} in fewer than {MOST:.0e}"
@@ -251,6 +251,15 @@ mod tests {
             let (_, values) = assignment(text).expect("values");
             assert!(values.si(unit).is_err(), "{text}");
         }
+        let (_, values) = assignment("w=3..1:0.5").expect("values");
+        let told = values.si("1/s").expect_err("steps the other way");
+        let remedy = "give the step the other sign, or swap the ends";
+        assert_eq!(
+            told,
+            format!("steps of 0.5 lead from 3 away from 1; {remedy}")
+        );
+        assert_eq!(numbers("w=3..1:-0.5", "1/s"), [3.0, 2.5, 2.0, 1.5, 1.0]);
+        assert_eq!(numbers("w=1..3:0.5", "1/s"), [1.0, 1.5, 2.0, 2.5, 3.0]);
         for text in ["x", "=1", "x=", "x=1..2", "x=1,,2", "x=1..2:m3"] {
             assert!(assignment(text).is_err(), "{text}");
         }

@@ -5,7 +5,7 @@
 //! number = digits | "PI" ;                                         (without a sign between numbers the second is PI)
 //! ```
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use ukcore::Error;
 use ukunits::{Dimension, Refusal, Unit};
@@ -106,6 +106,19 @@ pub(crate) fn effort(unit: &str) -> Option<String> {
     Unit::parse(unit).ok().map(|unit| unit.dimension().effort())
 }
 
+/// Whether `unit` is one of length.
+pub(crate) fn is_length(unit: &str) -> bool {
+    Unit::parse(unit).is_ok_and(|unit| unit.dimension() == Dimension::LENGTH)
+}
+
+/// What a turn is in `unit`; none where that is no unit of an angle.
+pub(crate) fn turn(unit: &str) -> Option<f64> {
+    let unit = Unit::parse(unit).ok()?;
+    let angle = unit.dimension() != Dimension::NUMBER
+        && unit.dimension().without_angle() == Dimension::NUMBER;
+    angle.then(|| unit.from_si(TAU))
+}
+
 /// A bare number.
 impl From<f64> for Quantity {
     fn from(value: f64) -> Self {
@@ -117,6 +130,20 @@ impl From<f64> for Quantity {
 pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
     let (name, value) = split(text, "VALUE")?;
     Ok((name.to_owned(), Quantity::parse(value)?))
+}
+
+/// How many steps of `step` lead from `from` to `to`.
+///
+/// # Errors
+/// If they lead the other way.
+pub(crate) fn steps(from: f64, to: f64, step: f64) -> Result<f64, String> {
+    let steps = (to - from) / step;
+    if steps.is_finite() && steps < 0.0 {
+        return Err(format!(
+            "steps of {step} lead from {from} away from {to}; give the step the other sign, or swap the ends"
+        ));
+    }
+    Ok(steps)
 }
 
 /// Splits `NAME=…`; what is behind is called `values` where it is missing.

@@ -139,8 +139,8 @@ impl<'a> ByParts<'a> {
         self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(straight))
     }
 
-    /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first: in
-    /// each of them it is another one.
+    /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first:
+    /// in each of them it is another one.
     pub(super) fn found_near(&mut self, (times, none): (f64, f64)) -> Option<(Found, Vec<Found>)> {
         let straight = self.straight();
         let nearest = self.nearest_of_all(&straight)?;

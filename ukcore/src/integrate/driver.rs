@@ -372,8 +372,8 @@ impl Driver<'_> {
         ))
     }
 
-    /// Refuses where projections have taken back the greater part of the way for many steps: velocities that lead off the constraints however
-    /// short the steps are.
+    /// Refuses where projections have taken back the greater part of the way for many steps: velocities that lead off the constraints
+    /// however short the steps are.
     fn progress(&mut self, trial: Trial) -> Result<(), Refusal> {
         let Equations {
             problem, course, ..

@@ -180,7 +180,8 @@ impl Manifold {
         self.newton.acceptance.ease = even.collect();
     }
 
-    /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each other.
+    /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each
+    /// other.
     pub(crate) fn orientation(&mut self, at: &At<'_, f64>, part: &Part, x: &[f64]) -> i32 {
         if part.rows.len() != part.unknowns.len() {
             return 0;

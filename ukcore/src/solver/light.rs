@@ -1,7 +1,7 @@
 //! Whether a coordinate is light beside the others.
 //!
-//! q̈ = M⁻¹ (Q + Aᵀλ) of a light coordinate that constraints tie to heavy ones is what is left of terms that all but cancel: ε |Q|/m of it is
-//! rounding. In row c of A coordinate j has the part a_cj²/m_j of G_cc, in the same unit as all others of the row. Where those of some
+//! q̈ = M⁻¹ (Q + Aᵀλ) of a light coordinate that constraints tie to heavy ones is what is left of terms that all but cancel: ε |Q|/m of it
+//! is rounding. In row c of A coordinate j has the part a_cj²/m_j of G_cc, in the same unit as all others of the row. Where those of some
 //! inertia make up all but [`SHARE`] of it, and others the rest, what these do is lost in the rounding of those.
 //!
 //! A part may vanish at single states, as that of a crank in line with its rod: so a row is even once it was so at one state, with

@@ -135,8 +135,8 @@ fn both(text: &str) -> [usize; 2] {
     [costs.dynamics, costs.acceleration].map(|costs| costs.counts().iter().sum())
 }
 
-/// What the catalogue declares by bodies and joints costs what it costs in places and angles whose T and equations are written out, within a
-/// twentieth.
+/// What the catalogue declares by bodies and joints costs what it costs in places and angles whose T and equations are written out, within
+/// a twentieth.
 #[track_caller]
 fn assert_as_by_hand(by_bodies: &str, by_hand: &str) {
     let [bodies, hand] = [both(by_bodies), both(by_hand)];

@@ -1,8 +1,8 @@
-//! The emitted code as reviewed, in `golden`: of four small mechanisms that show everything, of a type with an error, what all models cost, and a
-//! digest of each. A change shows in the diff.
+//! The emitted code as reviewed, in `golden`: of four small mechanisms that show everything, of a type with an error, what all models cost,
+//! and a digest of each. A change shows in the diff.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p ukmacros golden` writes the files anew; `cargo test -p ukmacros expansions -- --ignored` writes the whole code of
-//! every model to `target/expansions`, to be compared with that of another commit.
+//! `UPDATE_EXPECT=1 cargo test -p ukmacros golden` writes the files anew; `cargo test -p ukmacros expansions -- --ignored` writes the whole
+//! code of every model to `target/expansions`, to be compared with that of another commit.
 
 use super::analysis;
 use crate::analysis::Costs;

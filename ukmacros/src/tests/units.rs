@@ -192,6 +192,34 @@ fn deep_nesting() {
     ));
 }
 
+/// What the messages about plain numbers propose is accepted, of numbers and of vectors.
+#[test]
+fn plain_numbers_are_given_a_unit_by_a_factor() {
+    let body = "params { m = 1 [kg], phi = 30 [deg] } bodies { planar a { mass: m, inertia: 1 } } coords { x [m] } mass { x: m }";
+    let of = |factor: &str| {
+        [
+            format!("{body} output {{ o = a.at(«[cos(phi), sin(phi)]{factor}») }}"),
+            format!("{body} holonomic {{ c: x = «2 * cos(phi + a.angle){factor}» }}"),
+            format!("{body} output {{ o = x + «phi{factor}» }}"),
+            format!(
+                "{body} holonomic {{ c: rod(ground.at([0, 0]), a.at([0, 0]), «sin(phi){factor}») }}"
+            ),
+        ]
+    };
+    let remedy = "; behind a plain number `* 1 [m]` gives it the unit";
+    for (refused, message) in of("").iter().zip([
+        "expected m, a place, found a plain number",
+        "equates m with a plain number",
+        "adds a plain number to m",
+        "`l` of `rod(p, q, l)` is in m, found a plain number",
+    ]) {
+        check(refused, &[&format!("{message}{remedy}")]);
+    }
+    for mended in of(" * 1 [m]") {
+        accepted(&mended.replace(['«', '»'], ""));
+    }
+}
+
 macro_rules! cases {
     ($($name:ident: $source:literal => $($message:literal),+;)*) => {
         $(#[test] fn $name() { check($source, &[$($message),+]); })*

@@ -38,19 +38,27 @@
   };
   const all = runs.flatMap((run) => run.pictures).filter(finite);
   const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
-  // Along axes on which the mechanism goes much farther than it is large, the view goes with it; what stands still is no part of that.
-  const still = (shape) => all.every((picture) => points(shape, picture).flat().every((x, i) => x === all[0][shape.start + i]));
-  const moving = shapes.filter((shape) => !still(shape));
-  let extent = 0;
   for (const picture of all) {
-    const whole = bounds(picture, shapes), own = bounds(picture, moving);
+    const whole = bounds(picture, shapes);
     whole.low.forEach((x, i) => {
       low[i] = Math.min(low[i], x);
       high[i] = Math.max(high[i], whole.high[i]);
-      extent = Math.max(extent, own.high[i] - own.low[i]);
     });
   }
   const spans = low.map((x, i) => high[i] - x);
+  // Along axes on which the mechanism goes much farther than it is large, the view goes with it; what stands still in each run, perhaps
+  // elsewhere in another, is no part of that.
+  const rounding = 1e-9 * Math.max(...spans);
+  const still = (shape) => runs.every((run) => {
+    const [first, ...later] = run.pictures.filter(finite).map((picture) => points(shape, picture).flat());
+    return later.every((numbers) => numbers.every((x, i) => Math.abs(x - first[i]) <= rounding));
+  });
+  const moving = shapes.filter((shape) => !still(shape));
+  let extent = 0;
+  for (const picture of all) {
+    const own = bounds(picture, moving);
+    own.low.forEach((x, i) => { extent = Math.max(extent, own.high[i] - x); });
+  }
   const follows = spans.map((span) => extent > 0 && span > 8 * extent);
   const travels = follows.includes(true);
   const shown = spans.map((span, i) => (follows[i] ? 3 * extent : span));

@@ -282,6 +282,15 @@ fn its_modes_are_told() {
         1,
         "is neither a rest position nor a steady motion",
     );
+    let told = output("modes cart --steady --set angle=0");
+    let head = "cart at its start `released`, a rest position:\n  s  0 m\n";
+    assert!(told.starts_with(head), "{told}");
+    // A cart that no spring holds, and its pendulum with it.
+    let told = output(
+        "modes cart --steady --set k=0 --guess x=0 --guess y=-0.5 --guess dot(s)=1 --guess dot(x)=1 --hold s,x",
+    );
+    let head = "cart at its start `assembled`, a steady motion:\n  s  0 m   dot 1\n";
+    assert!(told.starts_with(head), "{told}");
 }
 
 #[test]
@@ -448,6 +457,11 @@ fn drives_are_swept_to_the_limits_of_motion() {
         "kinematics cart --drive x=0..1:2 --hold s",
         2,
         "steps of 2 do not lead from 0 to 1",
+    );
+    fails(
+        "kinematics cart --drive x=0.4..0:0.1 --hold s",
+        2,
+        "`x`: steps of 0.1 lead from 0.4 away from 0; give the step the other sign, or swap the ends",
     );
     fails(
         "kinematics cart --drive x=0..1 --hold s --effort s",

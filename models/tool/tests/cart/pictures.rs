@@ -53,31 +53,33 @@ fn its_motion_is_shown() {
     fails("animate cart --pictures 1", 2, "from 2 to 100000");
 }
 
-/// The view goes along with what goes much farther than it is large, above ground that stands still: here all that is declared, moved by
-/// 10 m from picture to picture along a line of 400 m.
+/// The view goes along with what goes much farther than it is large, above ground that stands still in each run: here all that is declared,
+/// moved by 10 m from picture to picture along a line of 400 m, which lies 100 m higher in the second run.
 #[test]
 fn a_long_way_is_followed() {
     let out = tempfile::tempdir().expect("directory");
     let page = out.path().join("far.html");
     output(&format!(
-        "animate cart --until 2 --pictures 41 --out {}",
+        "animate cart --set k=40,60 --until 2 --pictures 41 --out {}",
         page.display()
     ));
     let text = std::fs::read_to_string(&page).expect("the page");
     let mut far = data(&text);
-    for (k, picture) in far["runs"][0]["pictures"]
-        .as_array_mut()
-        .expect("pictures")
-        .iter_mut()
-        .enumerate()
-    {
-        // The abscissas of spring, rod, bob, which has a radius, and trace.
-        for place in [0, 2, 4, 6, 8, 11] {
-            let x = picture[place].as_f64().expect("a number");
-            picture[place] = (x + 10.0 * k as f64).into();
+    for (run, height) in [0.0, 100.0].into_iter().enumerate() {
+        let pictures = far["runs"][run]["pictures"].as_array_mut();
+        for (k, picture) in pictures.expect("pictures").iter_mut().enumerate() {
+            // Spring, rod, bob, which has a radius, and trace.
+            for place in [0, 2, 4, 6, 8, 11] {
+                let at = |i: usize| picture[i].as_f64().expect("a number");
+                let (x, y) = (at(place), at(place + 1));
+                picture[place] = (x + 10.0 * k as f64).into();
+                picture[place + 1] = (y + height).into();
+            }
+            let numbers = picture.as_array_mut().expect("numbers");
+            // What is computed stands still but for rounding.
+            let level = (height - 1.0) * (1.0 + f64::EPSILON * (k % 2) as f64);
+            numbers.extend([0.0, level, 400.0, level].map(Value::from));
         }
-        let numbers = picture.as_array_mut().expect("numbers");
-        numbers.extend([0.0, -1.0, 400.0, -1.0].map(Value::from));
     }
     let ground = json!({ "kind": "line", "numbers": 4, "label": "" });
     far["shapes"].as_array_mut().expect("shapes").push(ground);
@@ -85,20 +87,20 @@ fn a_long_way_is_followed() {
     let (_, after) = rest.split_once("</script>").expect("its end");
     std::fs::write(&page, format!("{before}id=\"data\">{far}</script>{after}")).expect("written");
     if let Some(shown) = browsed(&page) {
-        let (_, view) = shown.split_once("viewBox=\"").expect("a view");
-        let view = view.split('"').next().unwrap_or_default().split(' ');
-        let view: Vec<f64> = view.map(|x| x.parse().expect("a number")).collect();
-        let bob = far["runs"][0]["pictures"][40][8]
-            .as_f64()
-            .expect("a number");
-        assert!(
-            (view[0]..view[0] + view[2]).contains(&bob) && view[2] < 10.0,
-            "{view:?}"
-        );
-        assert!(
-            shown.contains("The view goes along; its lines are"),
-            "{shown}"
-        );
+        let views: Vec<&str> = shown.split("viewBox=\"").skip(1).collect();
+        for (run, view) in views.iter().take(2).enumerate() {
+            let view = view.split('"').next().unwrap_or_default().split(' ');
+            let view: Vec<f64> = view.map(|x| x.parse().expect("a number")).collect();
+            let bob = far["runs"][run]["pictures"][40][8]
+                .as_f64()
+                .expect("a number");
+            assert!(
+                (view[0]..view[0] + view[2]).contains(&bob) && view[2] < 10.0,
+                "{view:?}"
+            );
+        }
+        let told = shown.matches(". The view goes along; its lines are");
+        assert_eq!((views.len() >= 2, told.count()), (true, 2), "{shown}");
     }
 }
 
@@ -187,13 +189,22 @@ fn curves_of_a_run_are_drawn() {
         .skip(1)
         .filter_map(|part| part.split('"').next())
         .max_by_key(|points| points.len());
-    let points = longest.expect("a curve").split_whitespace();
-    let across = points.filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
+    let longest = longest.expect("a curve");
+    let points = || longest.split_whitespace();
+    let across = points().filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
     let (low, high) = across.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
         (low.min(x), high.max(x))
     });
     // The axis goes from −0.4 to 0.4 over the frame, or from −0.391 to 0.392.
     assert!(high - low > 0.9 * 0.979 * 650.0, "{low} {high}");
+    // A metre is as long up: the bob swings by l sin 0.9 to either side, and by l (1 − cos 0.9) up.
+    let ups = points().filter_map(|point| point.split_once(',')?.1.parse::<f64>().ok());
+    let (top, bottom) = ups.fold((f64::INFINITY, 0.0_f64), |(top, bottom), y| {
+        (top.min(y), bottom.max(y))
+    });
+    let (wide, tall) = (2.0 * 0.9_f64.sin(), 1.0 - 0.9_f64.cos());
+    let ratio = (high - low) / (bottom - top);
+    assert!((ratio / (wide / tall) - 1.0).abs() < 0.01, "{ratio}");
     fails(
         "run cart --plot a.svg swnig",
         2,

@@ -146,7 +146,8 @@ impl Equations<'_> {
         self.moving(switches, y, |_, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no value.
+    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
+    /// value.
     fn moving(
         &mut self,
         switches: &[usize],

@@ -145,8 +145,8 @@ impl<'m> Lowering<'m> {
         });
     }
 
-    /// Rims of what rolls; bodies as outlines of their centre and of the points where they are joined, pushed or reported; springs, rods and
-    /// forces between points; and the places on the ground that something hangs on.
+    /// Rims of what rolls; bodies as outlines of their centre and of the points where they are joined, pushed or reported; springs, rods
+    /// and forces between points; and the places on the ground that something hangs on.
     fn skeleton(&mut self) -> Drawing {
         let between = std::mem::take(&mut self.between);
         let mut out = Drawing {

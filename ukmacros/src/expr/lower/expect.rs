@@ -120,7 +120,8 @@ impl<'m> Lowering<'m> {
     pub(super) fn expect(&mut self, id: Id, expected: Measured, what: &str, loc: Loc) {
         let found = self.dimension(id);
         if let Err((expected, found)) = expected.with(found) {
-            let message = format!("expected {expected}, {what}, found {found}");
+            let remedy = remedy(expected, found);
+            let message = format!("expected {expected}, {what}, found {found}{remedy}");
             self.complain(id, loc, message);
         }
     }
@@ -146,8 +147,13 @@ impl<'m> Lowering<'m> {
         let dimension = Unit::parse(unit).map(|unit| unit.dimension());
         let expected = dimension.map_or(Unknown, Measured::of);
         for id in value.entries() {
-            if let Err((_, found)) = expected.with(self.dimension(*id)) {
-                self.complain(*id, loc, format!("{what} is in {unit}, found {found}"));
+            if let Err((expected, found)) = expected.with(self.dimension(*id)) {
+                let remedy = remedy(expected, found);
+                self.complain(
+                    *id,
+                    loc,
+                    format!("{what} is in {unit}, found {found}{remedy}"),
+                );
             }
         }
     }
@@ -213,7 +219,8 @@ impl<'m> Lowering<'m> {
                 let ids = right
                     .iter()
                     .filter_map(|(_, value, _)| value.entries().get(k));
-                let message = format!("equates {a} with {b}");
+                let remedy = remedy(a, b);
+                let message = format!("equates {a} with {b}{remedy}");
                 ids.copied()
                     .for_each(|id| self.complain(id, loc, message.clone()));
                 return true;
@@ -285,8 +292,19 @@ impl<'m> Lowering<'m> {
 }
 
 fn adds(next: Dimension, before: Dimension, minus: bool) -> String {
+    let remedy = remedy(before, next);
     match minus {
-        true => format!("subtracts {next} from {before}"),
-        false => format!("adds {next} to {before}"),
+        true => format!("subtracts {next} from {before}{remedy}"),
+        false => format!("adds {next} to {before}{remedy}"),
     }
+}
+
+/// What gives a plain number the unit of the other one; nothing where neither is plain.
+fn remedy(a: Dimension, b: Dimension) -> String {
+    let unit = match (a == Dimension::NUMBER, b == Dimension::NUMBER) {
+        (true, false) => b,
+        (false, true) => a,
+        _ => return String::new(),
+    };
+    format!("; behind a plain number `* 1 [{unit}]` gives it the unit")
 }

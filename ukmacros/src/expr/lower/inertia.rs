@@ -401,8 +401,8 @@ fn possible(numbers: &[f64], thin: bool) -> Result<(), String> {
     if !(definite || thin) {
         let remedy = match own.contains(&0.0) {
             true => {
-                "; about its own axis a thin rod has a small moment, m r²/2, too; it may be left out, as 0, where the rod hangs on a joint under `tree` \
-                 that has angles for coordinates"
+                "; about its own axis a thin rod has a small moment, m r²/2, too; it may be left out, as 0, where the rod hangs on a \
+                 joint under `tree` that has angles for coordinates"
             }
             false => "",
         };

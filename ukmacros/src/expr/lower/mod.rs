@@ -3,6 +3,7 @@
 mod array;
 mod bodies;
 mod calls;
+mod constraints;
 mod drawing;
 mod expect;
 mod inertia;
@@ -28,15 +29,15 @@ pub(crate) use vectors::vocabulary;
 
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
-use crate::model::{LOADS, Model, Scope, every, uses};
-use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, Key, MassEntry};
+use crate::model::{LOADS, Model, Scope, uses};
+use crate::parse::{Block, Declaration, Entry, Expr, Function, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
+use constraints::Names;
 use drawing::Between;
 use inertia::OfBodies;
-use parts::{Acting, PARTS};
-use proc_macro2::Ident;
-use reactions::{Known, Load};
+use parts::Acting;
+use reactions::Known;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 use ukunits::Dimension;
@@ -77,35 +78,6 @@ enum Binding {
     /// By indices, as many for each member.
     Family(BTreeMap<Vec<i64>, Value>),
     Function(Rc<Function>),
-}
-
-/// Names of constraints or outputs declared so far.
-#[derive(Default)]
-struct Names {
-    items: HashSet<String>,
-    /// By base, whether it is indexed: `rod` and `rod[0]` are not both declared, so that `T::ROD` has one meaning.
-    indexed: HashMap<String, bool>,
-}
-
-impl Names {
-    /// Enters a name; the reason if it is taken. `what` it names and whether it is `looped` go into the reason.
-    fn enter(&mut self, what: &str, item: &ConstraintRef, looped: bool) -> Result<(), String> {
-        let (base, text) = (item.base.to_string(), item.text());
-        let indexed = !item.indices.is_empty();
-        if *self.indexed.entry(base.clone()).or_insert(indexed) != indexed {
-            return Err(format!(
-                "{what} `{base}` is declared both with and without an index; rename one"
-            ));
-        }
-        if self.items.insert(text.clone()) {
-            return Ok(());
-        }
-        Err(if looped && !indexed {
-            format!("{what} `{base}` is declared twice; in a loop, index it: `{base}[i]`")
-        } else {
-            format!("{what} `{text}` is declared twice; names must be unique")
-        })
-    }
 }
 
 /// Lowers everything.
@@ -493,110 +465,5 @@ impl<'m> Lowering<'m> {
         });
         let out = out.into_iter();
         out.map(|(i, values)| (i, self.total_of(&values))).collect()
-    }
-
-    /// Whether nothing is declared under `name`; the reason if something is.
-    fn free(&self, name: &Ident) -> Result<(), String> {
-        self.model.free(name)?;
-        match self.lets.contains_key(&name.to_string()) {
-            true => Err(format!("`{name}` is declared twice; names must be unique")),
-            false => Ok(()),
-        }
-    }
-
-    /// What `key` calls an equation, output or integral, whole.
-    fn item(&mut self, key: &Key, scope: &Scope<'m>) -> Option<ConstraintRef> {
-        Some(ConstraintRef {
-            base: key.name.clone(),
-            shown: self.model.shown(&key.name.to_string()).to_owned(),
-            indices: self.indices(&key.indices, scope)?,
-            components: Vec::new(),
-            row: None,
-            unit_of: None,
-        })
-    }
-
-    fn equation(&mut self, equation: &Equation, kind: Kind, scope: &Scope<'m>, names: &mut Names) {
-        let key = &equation.key;
-        let Some(mut item) = self.item(key, scope) else {
-            return;
-        };
-        let looped = !scope.variables.is_empty();
-        let free = self.free(&key.name);
-        if let Err(reason) = free.and_then(|()| names.enter("constraint", &item, looped)) {
-            self.diag.error(key.loc, reason);
-            return;
-        }
-        let place = match kind {
-            Kind::Holonomic => Place::Holonomic,
-            Kind::Nonholonomic => Place::Nonholonomic,
-        };
-        let env = Env::new(scope, place);
-        let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), Load::default());
-        let mut known = true;
-        match &equation.lhs.kind {
-            ExprKind::Call(..) => {
-                let value = self.argument(&equation.lhs, &env);
-                known = !value.is_error();
-                if let Value::Joint(joint) = &value {
-                    rows.clone_from(&joint.names);
-                    load.clone_from(&joint.load);
-                }
-                let value = self.numbers(value, equation.lhs.loc);
-                self.term(&equation.lhs, value, 1.0, &mut terms);
-            }
-            _ => self.chain(&equation.lhs, 1.0, &env, &mut terms),
-        }
-        let left = terms.len();
-        match &equation.rhs {
-            Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
-            None if !known || self.is_joint(&equation.lhs) => {}
-            None => self
-                .diag
-                .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
-        }
-        let clash = self.dimensions.is_some() && {
-            let (left, right) = terms.split_at(left);
-            self.sides_clash(left, right)
-        };
-        let total = match clash {
-            true => Value::Error,
-            false => self.total(&terms, true),
-        };
-        let (first, whole) = (self.constraints.len(), item.text());
-        for (k, (components, phi)) in self.components(&total).into_iter().enumerate() {
-            item.components = components;
-            item.row = rows.get(k).copied();
-            self.constraints.push(Constraint {
-                item: item.clone(),
-                kind,
-                phi,
-                loc: key.loc,
-            });
-            self.measure_row(phi, kind);
-        }
-        // What is in error has no reaction that could be judged.
-        if !total.is_error() {
-            self.know(whole, first, total.shape(), rows, load);
-        }
-    }
-
-    /// Whether `e` applies a joint, or a function of the declaration, which may be one.
-    fn is_joint(&self, e: &Expr) -> bool {
-        let ExprKind::Call(name, _) = &e.kind else {
-            return matches!(e.kind, ExprKind::Error);
-        };
-        let joint = PARTS.iter().any(|part| name == part.name);
-        joint || self.is_function(&name.to_string())
-    }
-
-    /// The numbers that a value consists of, with their indices in it. The name of a faulty one stays declared, as zero: what uses it gives
-    /// no second message.
-    fn components(&mut self, value: &Value) -> Vec<(Vec<usize>, Id)> {
-        let numbers = match value {
-            Value::Error => vec![self.graph.zero()],
-            _ => value.entries().to_vec(),
-        };
-        every(value.shape()).zip(numbers).collect()
     }
 }

@@ -1,8 +1,9 @@
 //! Outputs and integrals.
 
+use super::constraints::Names;
 use super::system::OutputValue;
 use super::units::Measured;
-use super::{Env, Lowering, Names, NoValue, Place};
+use super::{Env, Lowering, NoValue, Place};
 use crate::expr::graph::Id;
 use crate::model::Scope;
 use crate::parse::{Block, Measure, Output};

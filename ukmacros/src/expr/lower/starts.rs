@@ -223,8 +223,8 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Where in q what a vector of the body at `position` says goes: to its own coordinates, or of an angular velocity to those of the joint
-    /// of the tree between it and the ground that turn it freely.
+    /// Where in q what a vector of the body at `position` says goes: to its own coordinates, or of an angular velocity to those of the
+    /// joint of the tree between it and the ground that turn it freely.
     fn place_of(&self, position: usize, vector: OfBody, spatial: bool) -> Option<usize> {
         let offset = match (vector, spatial) {
             (OfBody::Centre, _) => 0,
