@@ -184,8 +184,8 @@ fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String>
     (!gone.is_empty()).then(|| quoted(&gone))
 }
 
-/// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is
-/// unknown.
+/// In a clause, which constraints have it that reactions of theirs are not numbers at `state`, and what to do; `None` where all reactions
+/// are unique, and where that is unknown.
 pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
     let mech: Prepared = mechanism.into();
     let State { t, q, v } = state;
@@ -211,9 +211,13 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
         true => (&found.nearest, "all but imply"),
         false => (&found.undetermined, "imply"),
     };
+    let remedy = match found.undetermined.is_empty() || !found.only_here.is_empty() {
+        true => "end the run before",
+        false => "declare as few as are independent",
+    };
     let rows = quoted(rows);
     (!rows.is_empty()).then(|| {
-        format!("{rows} {how} each other there, so that reactions are not unique: end the run before, or do without them")
+        format!("{rows} {how} each other there, so that their reactions are not unique: {remedy}, or do without these reactions")
     })
 }
 
