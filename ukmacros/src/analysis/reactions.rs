@@ -100,7 +100,9 @@ fn multipliers(
     let elimination = elimination?;
     let straight = Straight::new(elimination, held, &regular.met, system);
     let g = &mut system.graph;
-    let unique = straight.elimination.unique(&straight.met, held, g);
+    let unique = straight
+        .elimination
+        .unique(&straight.met, regular.excess, held, g);
     let multipliers = straight
         .elimination
         .multipliers

@@ -33,8 +33,17 @@ const MANY: usize = 4;
 /// Nodes evaluated and entries computed at most: some ten milliseconds without optimisation.
 const WORK: usize = 600_000;
 
-/// The constraints that follow from others, with these others: which of them is the one too many may change along a motion.
-pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<usize> {
+/// Constraints that imply each other.
+#[derive(Default)]
+pub(crate) struct Redundant {
+    /// Those that follow from others, with these others: which of them is the one too many may change along a motion.
+    pub(crate) rows: BTreeSet<usize>,
+    /// How many of them follow from the others wherever it was looked.
+    pub(crate) excess: usize,
+}
+
+/// Looks for constraints that follow from others.
+pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> Redundant {
     let n = d.force.len();
     let mut search = Search {
         position: Level::new(&d.jacobian, &d.phi, g),
@@ -42,16 +51,20 @@ pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<u
         left: WORK,
     };
     let mut random = Random::new(3);
-    let mut found = BTreeSet::new();
+    let mut found = Redundant::default();
     let mut states = 0;
     for _ in 0..GUESSES {
         let probe = Probe::signed(defaults, n, &mut random);
         let Some(here) = search.at(probe, g) else {
             continue;
         };
-        found.extend(here);
+        found.excess = match states {
+            0 => here.excess,
+            _ => found.excess.min(here.excess),
+        };
+        found.rows.extend(here.rows);
         states += 1;
-        if states == if found.is_empty() { FEW } else { MANY } {
+        if states == if found.rows.is_empty() { FEW } else { MANY } {
             break;
         }
     }
@@ -161,17 +174,17 @@ struct Search {
 impl Search {
     /// The constraints that follow from others at the state on the constraints that is reached from `probe`; `None` if none is, or it
     /// is near a singular position.
-    fn at(&mut self, mut probe: Probe<'_>, g: &Graph) -> Option<BTreeSet<usize>> {
+    fn at(&mut self, mut probe: Probe<'_>, g: &Graph) -> Option<Redundant> {
         self.position.settle(&mut probe, true, &mut self.left, g)?;
         let place = self.velocity.settle(&mut probe, false, &mut self.left, g)?;
         self.dependent(&place)
     }
 
     /// The rows that keep nothing beside those before them, with those they are made up of.
-    fn dependent(&mut self, place: &Place) -> Option<BTreeSet<usize>> {
+    fn dependent(&mut self, place: &Place) -> Option<Redundant> {
         // Rows, and behind them what they are made up of.
         let mut basis: Vec<Vec<f64>> = Vec::new();
-        let mut dependent = BTreeSet::new();
+        let mut dependent = Redundant::default();
         let n = place.rows.iter().flatten().map(|(i, _)| i + 1).max()?;
         for (row, entries) in place.rows.iter().enumerate() {
             let mut rest = vec![0.0; n + place.rows.len()];
@@ -188,7 +201,10 @@ impl Search {
             let length = rest[..n].iter().map(|x| x * x).sum::<f64>().sqrt();
             if length <= NOTHING {
                 let shares = rest[n..].iter().enumerate();
-                dependent.extend(shares.filter(|(_, x)| x.abs() > SHARE).map(|(c, _)| c));
+                dependent.excess += 1;
+                dependent
+                    .rows
+                    .extend(shares.filter(|(_, x)| x.abs() > SHARE).map(|(c, _)| c));
             } else if length >= SOMETHING {
                 rest.iter_mut().for_each(|x| *x /= length);
                 basis.push(rest);

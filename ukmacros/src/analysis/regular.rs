@@ -53,6 +53,8 @@ pub(crate) struct Regular {
     pub(crate) singular: Vec<usize>,
     /// Constraints that follow from others, with these others; not looked for where `singular` refuses the straight line.
     pub(crate) redundant: BTreeSet<usize>,
+    /// How many of these follow from the others at any state.
+    pub(crate) excess: usize,
 }
 
 /// Makes M regular as far as constraints do.
@@ -66,6 +68,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         met: Vec::new(),
         singular: Vec::new(),
         redundant: BTreeSet::new(),
+        excess: 0,
     };
     let g = &mut system.graph;
     for block in blocks(d, g) {
@@ -88,7 +91,8 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
     found.met.sort_unstable();
     found.met.dedup();
     if found.singular.is_empty() {
-        found.redundant = redundant(d, &system.defaults, &system.graph);
+        let redundant = redundant(d, &system.defaults, &system.graph);
+        (found.redundant, found.excess) = (redundant.rows, redundant.excess);
     }
     found
 }

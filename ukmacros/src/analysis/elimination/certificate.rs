@@ -279,9 +279,16 @@ impl Elimination {
     }
 
     /// What each multiplier is to be multiplied by: 1 where it is unique, else not a number. The pivots of all rows that count are safe and
-    /// q̈ meets those of `met`, or none is known; and of those that are left out none takes part in what they follow from. A share of
-    /// [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
-    pub(crate) fn unique(&self, met: &[usize], d: &Dynamics, g: &mut Graph) -> Vec<Id> {
+    /// q̈ meets those of `met`, or none is known. No more rows are left out than the `excess` that follows from the others at any state: one
+    /// more is near a singular position, and moves all others. And of rows that are left out none takes part in what they follow from.
+    /// A share of [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
+    pub(crate) fn unique(
+        &self,
+        met: &[usize],
+        excess: usize,
+        d: &Dynamics,
+        g: &mut Graph,
+    ) -> Vec<Id> {
         let (safe, _) = self.certificate(true, g);
         let safe = met
             .iter()
@@ -290,6 +297,11 @@ impl Elimination {
             .droppings
             .iter()
             .fold(safe, |safe, dropping| dropping.allows(safe, g));
+        let left_out = self.droppings.iter().map(|row| (1.0, row.left_out(g)));
+        let left_out: Vec<(f64, Id)> = left_out.collect();
+        let (left_out, most) = (g.sum(&left_out), g.constant(excess as f64));
+        let zero = g.zero();
+        let safe = lesser(left_out, most, safe, zero, g);
         let one = g.one();
         let minus = g.neg(one);
         let [tiny, part] =

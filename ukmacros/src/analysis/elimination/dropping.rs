@@ -201,6 +201,16 @@ fn parts(factors: &[Factor]) -> BTreeMap<usize, usize> {
 }
 
 impl Dropping {
+    /// 1 where the row is left out, else 0.
+    pub(super) fn left_out(&self, g: &mut Graph) -> Id {
+        let (zero, one) = (g.zero(), g.one());
+        let Some(pivot) = self.pivot else {
+            return one;
+        };
+        let counts = g.scale(SAFE_SHARE, self.reference);
+        g.select(counts, pivot, zero, one)
+    }
+
     /// `safe`, or what is left of it where the row is left out.
     pub(super) fn allows(&self, safe: Id, g: &mut Graph) -> Id {
         let zero = g.zero();
