@@ -20,7 +20,7 @@ use crate::spectrum::singular;
 mod dead_centre;
 
 use dead_centre::NEARLY;
-pub(crate) use dead_centre::{STILL, dead_centre, leader};
+pub(crate) use dead_centre::{STANDS, dead_centre, leader};
 
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;

@@ -14,7 +14,7 @@ use super::measured_rows;
 
 /// Next to a dead centre drives move a mechanism that is free to go on by less than this share of its way, in units of inertia: no run gets
 /// nearer, as what is driven is off by the square of it.
-pub(crate) const STILL: f64 = 1e-4;
+pub(crate) const STANDS: f64 = 1e-4;
 /// So much nearer than most positions reactions have grown until they are no numbers any more.
 pub(crate) const NEARLY: f64 = 1e-2;
 /// So far beside a dead centre, as an angle, drives move the mechanism again, by at least this part of that.

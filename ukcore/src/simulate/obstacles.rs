@@ -5,7 +5,7 @@ use super::vanishing::{Loss, Vanishing};
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::diagnose;
-use crate::diagnosis::{STILL as STANDS, dead_centre};
+use crate::diagnosis::{STANDS, dead_centre};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Singular, Step, Tolerance, Trouble};

@@ -59,7 +59,7 @@ const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 pub(super) const MET: f64 = 2e-12;
 
-/// The least share of a dependence that a row has which takes part in it: `ukcore::diagnosis` knows it, too.
+/// The least share of a dependence that a row has which takes part in it, as `ukcore::diagnose` has it for what the dense solve finds.
 const PARTICIPATION: f64 = 1e-6;
 
 /// Inertias of one mechanism that are further apart are looked at where it runs: see the module.

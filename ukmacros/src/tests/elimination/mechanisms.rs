@@ -79,19 +79,22 @@ pub(super) fn declaration(random: &mut Random) -> String {
     text + "} }"
 }
 
+/// Parameters of n parts, a mass `m` and an `other` inertia of each.
+fn inertias(random: &mut Random, n: usize, other: char) -> String {
+    let mut text = String::new();
+    for i in 0..n {
+        let [m, j] = [(); 2].map(|()| random.between(0.3, 1.3));
+        let _ = write!(text, "m{i} = {m}, {other}{i} = {j}, ");
+    }
+    text
+}
+
 /// Bodies in a plane, pinned in trees and loops at points given by numbers and parameters, some welded, geared or driven; and point masses
 /// on bodies, by their velocities as they are given by those of the body.
 pub(super) fn bodies(random: &mut Random) -> String {
     let n = 2 + random.below(4);
     let mut text = format!("pub T {{ const N: usize = {n}; params {{ r = 0.4, ");
-    for i in 0..n {
-        let _ = write!(
-            text,
-            "m{i} = {}, j{i} = {}, ",
-            random.between(0.3, 1.3),
-            random.between(0.3, 1.3)
-        );
-    }
+    text += &inertias(random, n, 'j');
     text += "} coords { x[N], y[N], th[N] } kinetic { ";
     for i in 0..n {
         let _ = write!(
@@ -196,14 +199,7 @@ pub(super) fn spatial(random: &mut Random) -> String {
 pub(super) fn linkage(random: &mut Random) -> String {
     let n = 2 + random.below(6);
     let mut text = format!("pub T {{ const N: usize = {n}; params {{ ");
-    for i in 0..n {
-        let _ = write!(
-            text,
-            "m{i} = {}, k{i} = {}, ",
-            random.between(0.3, 1.3),
-            random.between(0.3, 1.3)
-        );
-    }
+    text += &inertias(random, n, 'k');
     text += "} coords { x[N], y[N] } kinetic { ";
     for i in 0..n {
         let other = if random.below(3) == 0 { "k" } else { "m" };
