@@ -52,6 +52,56 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A small body far off the ball joint that it swings about, askew of its axes, and another that hangs on it.
+    Stick {
+        params { l = 1000.0, m = 2.0, j = 0.01, g = 9.81 }
+        bodies {
+            spatial upper { mass: m, inertia: [j, 2 * j, 1.5 * j] }
+            spatial lower { mass: m, inertia: [j, 2 * j, 1.5 * j] }
+        }
+        gravity { [0, 0, -g] }
+        holonomic {
+            foot: ball(ground.at([0, 0, 0]), upper.at([0, l, l]))
+            elbow: ball(upper.at([0, 0, 0]), lower.at([0, -l, l]))
+        }
+        output { foot = reaction(foot), elbow = reaction(elbow) }
+        start tumbling(rate = 1.0) {
+            upper.e0 near 0.95; upper.e1 = 0.1; upper.e2 = -0.2; upper.e3 = 0.3;
+            upper.x near 0.9 * l; upper.y near -0.6 * l; upper.z near -0.8 * l;
+            lower.e0 near 0.95; lower.e1 = 0.1; lower.e2 = -0.3; lower.e3 = 0.3;
+            lower.x near l; lower.y near 0.6 * l; lower.z near -1.8 * l;
+            upper.omega = [0.5 * rate, 0.2 * rate, 0.3 * rate]; lower.omega = [0.1 * rate, 0, 0.2 * rate]
+        }
+    }
+}
+
+/// In coordinates that are turned as a whole there is always one that a joint far off all but leaves alone.
+#[test]
+fn bodies_far_off_their_joints_have_reactions() {
+    for l in [1e-3, 1.0, 250.0, 1e4] {
+        let stick = Stick {
+            l,
+            ..Stick::default()
+        };
+        let rate = (stick.g / l).sqrt();
+        let start = stick.start("tumbling", &[("rate", rate)].into());
+        let run = Simulation::new(&stick).start(start.expect("a start"));
+        let run = run.tolerance(1e-8).every(0.02 / rate).until(8.0 / rate);
+        let run = run.expect("a motion");
+        let foot = run.multipliers("foot").expect("multipliers");
+        let elbow = run.multipliers("elbow").expect("multipliers");
+        let weight = stick.m * stick.g;
+        for (k, (foot, elbow)) in foot.iter().zip(&elbow).enumerate() {
+            for axis in 0..3 {
+                let of = |name: &str| run.output(&format!("{name}[{axis}]")).expect("an output")[k];
+                assert_close("foot", of("foot"), foot[axis], 1e-9 * weight);
+                assert_close("elbow", of("elbow"), elbow[axis], 1e-9 * weight);
+            }
+        }
+    }
+}
+
 /// Where one more row is left out than follows from the others at any state, what is left of them says nothing of any load.
 #[test]
 fn near_a_singular_position_no_reaction_is_wrong() {

@@ -27,7 +27,7 @@ pub(super) struct Chosen {
 const PER_ENTRY: usize = 4;
 
 /// A system whose solution has the accelerations in it.
-struct Variant {
+pub(super) struct Variant {
     dynamics: Dynamics,
     names: Vec<String>,
     further: Further,
@@ -37,6 +37,36 @@ struct Variant {
 }
 
 impl Variant {
+    /// The equations themselves.
+    fn own(regular: &Regular, names: &[String]) -> Self {
+        Variant {
+            dynamics: regular.dynamics.clone(),
+            names: names.to_vec(),
+            further: Further::Nothing,
+            copies: Vec::new(),
+            turned: Turned::default(),
+        }
+    }
+
+    /// Its elimination, for a mechanism with `own` coordinates and constraints; with the multipliers of the equations given, if there are.
+    pub(super) fn task<'a>(
+        &'a self,
+        regular: &'a Regular,
+        own: (usize, usize),
+        multipliers: Option<&'a Dynamics>,
+    ) -> Task<'a> {
+        Task {
+            dynamics: &self.dynamics,
+            weights: self.weights(regular),
+            names: &self.names,
+            own,
+            further: self.further,
+            redundant: &regular.redundant,
+            turned: &self.turned,
+            multipliers,
+        }
+    }
+
     /// What was added to M: nothing where coordinates are turned.
     fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
         match self.turned.is_empty() {
@@ -104,16 +134,8 @@ pub(super) fn choose(
     let variants = variants(system, held, regular, names);
     // Why the first way that does not go does not.
     let mut refusal = None;
-    let tasks = variants.iter().map(|variant| Task {
-        dynamics: &variant.dynamics,
-        weights: variant.weights(regular),
-        names: &variant.names,
-        own,
-        further: variant.further,
-        redundant: &regular.redundant,
-        turned: &variant.turned,
-        multipliers: false,
-    });
+    let tasks = variants.iter();
+    let tasks = tasks.map(|variant| variant.task(regular, own, None));
     let tasks: Vec<Task<'_>> = tasks.collect();
     let ways = ways(&tasks, system, &mut refusal);
     let base = (ways.len() > 1).then(|| Nodes::copy(system));
@@ -201,64 +223,88 @@ fn variants(
     regular: &Regular,
     names: &[String],
 ) -> Vec<Variant> {
-    let g = &mut system.graph;
-    let mut variants = vec![Variant {
-        dynamics: regular.dynamics.clone(),
-        names: names.to_vec(),
-        further: Further::Nothing,
-        copies: Vec::new(),
-        turned: Turned::default(),
-    }];
-    let (coordinates, constraints) = names.split_at(held.force.len());
-    let with = |more: &[String]| [coordinates, more, constraints, more].concat();
-    if let Some(lift) = &held.lift {
-        let opened = opened(held, lift, &system.defaults, g);
-        let lift = opened.as_ref().unwrap_or(lift);
-        let velocities = lift.velocities().enumerate();
-        let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
-            Some(name) => name.clone(),
-            None => format!("velocity_{k}"),
-        });
-        let velocities: Vec<String> = velocities.collect();
-        let mut push = |(dynamics, turned)| {
-            variants.push(Variant {
-                dynamics,
-                names: with(&velocities),
-                further: Further::Velocities,
-                copies: Vec::new(),
-                turned,
-            });
-        };
-        let (rows, redundant, defaults) = (&regular.rows, &regular.redundant, &system.defaults);
-        let of = |before: &_, g: &mut _| turned(held, lift, rows, redundant, before, defaults, g);
-        match of(&BTreeSet::new(), g) {
-            Some(turned) => {
-                let before = turned.1.cheaper_before();
-                push(turned);
-                if !before.is_empty() {
-                    of(&before, g).into_iter().for_each(push);
-                }
-            }
-            None => {
-                let (mass, force) = (&regular.added, &regular.pulled);
-                let extended = lift.extended(&regular.dynamics, mass, force, g);
-                push((extended, Turned::default()));
-            }
-        }
-    }
-    if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
+    let mut variants = vec![Variant::own(regular, names)];
+    variants.extend(with_velocities(system, held, regular, names));
+    if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, &mut system.graph) {
         let more = copies.iter().enumerate();
         let more = more.map(|(k, hub)| format!("{}_{k}", names[*hub]));
         let more: Vec<String> = more.collect();
         variants.push(Variant {
             dynamics,
-            names: with(&more),
+            names: with_more(names, &more, held.force.len()),
             further: Further::Copies,
             copies,
             turned: Turned::default(),
         });
     }
     variants
+}
+
+/// The names of coordinates, `n` of them, and of constraints with those of `more` unknowns and the constraints that define them.
+fn with_more(names: &[String], more: &[String], n: usize) -> Vec<String> {
+    let (coordinates, constraints) = names.split_at(n);
+    [coordinates, more, constraints, more].concat()
+}
+
+/// The equations with the velocities that the kinetic energy is written in: in rates of turning, where there are frames.
+fn with_velocities(
+    system: &mut System,
+    held: &Dynamics,
+    regular: &Regular,
+    names: &[String],
+) -> Vec<Variant> {
+    let Some(lift) = &held.lift else {
+        return Vec::new();
+    };
+    let g = &mut system.graph;
+    let opened = opened(held, lift, &system.defaults, g);
+    let lift = opened.as_ref().unwrap_or(lift);
+    let velocities = lift.velocities().enumerate();
+    let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
+        Some(name) => name.clone(),
+        None => format!("velocity_{k}"),
+    });
+    let velocities: Vec<String> = velocities.collect();
+    let (rows, redundant, defaults) = (&regular.rows, &regular.redundant, &system.defaults);
+    let of = |before: &_, g: &mut _| turned(held, lift, rows, redundant, before, defaults, g);
+    let mut found = Vec::new();
+    match of(&BTreeSet::new(), g) {
+        Some(turned) => {
+            let before = turned.1.cheaper_before();
+            found.push(turned);
+            if !before.is_empty() {
+                found.extend(of(&before, g));
+            }
+        }
+        None => {
+            let (mass, force) = (&regular.added, &regular.pulled);
+            let extended = lift.extended(&regular.dynamics, mass, force, g);
+            found.push((extended, Turned::default()));
+        }
+    }
+    let found = found.into_iter().map(|(dynamics, turned)| Variant {
+        dynamics,
+        names: with_more(names, &velocities, held.force.len()),
+        further: Further::Velocities,
+        copies: Vec::new(),
+        turned,
+    });
+    found.collect()
+}
+
+/// The system whose multipliers reactions are: in rates of turning where there are frames, for in coordinates that are turned as a whole,
+/// as a quaternion, there are always some that a constraint all but leaves alone.
+pub(super) fn for_multipliers(
+    system: &mut System,
+    held: &Dynamics,
+    regular: &Regular,
+    names: &[String],
+) -> Variant {
+    let turned = with_velocities(system, held, regular, names).into_iter();
+    let mut turned = turned.filter(|variant| !variant.turned.is_empty());
+    turned
+        .next()
+        .unwrap_or_else(|| Variant::own(regular, names))
 }
 
 /// What is emitted with the given solve.

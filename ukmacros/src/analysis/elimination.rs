@@ -36,7 +36,7 @@ pub(crate) use certificate::{Solve, Straight};
 use super::dynamics::Dynamics;
 use super::frame::Turned;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
-use dropping::{Dropping, droppings, shares};
+use dropping::{Dropping, droppings, kernel, shares, squares};
 use matrix::{Factor, Matrix};
 pub(crate) use order::Order;
 use order::{Taste, order};
@@ -94,6 +94,8 @@ pub(crate) struct Elimination {
     order: Order,
     /// Whether there are no constraints, but for definitions that are substituted.
     free: bool,
+    /// Whether a constraint is a pivot by itself, solved for its multiplier.
+    solved: bool,
     /// Inertias that do not vary, where multipliers are solved for.
     inertias: Vec<Id>,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
@@ -168,8 +170,8 @@ pub(crate) struct Task<'a> {
     pub(crate) redundant: &'a BTreeSet<usize>,
     /// The coordinates that others stand for, and the constraints that are solved for these.
     pub(crate) turned: &'a Turned,
-    /// Whether all multipliers are wanted.
-    pub(crate) multipliers: bool,
+    /// The equations in the mechanism's coordinates, if all their multipliers are wanted.
+    pub(crate) multipliers: Option<&'a Dynamics>,
 }
 
 /// What a system has beyond the coordinates and constraints of the mechanism.
@@ -192,7 +194,7 @@ pub(crate) fn orders(task: &Task<'_>, defaults: &[f64], g: &Graph) -> Result<Vec
         // Definitions are substituted, ties are not: that would make one coordinate of them again.
         let suits = match task.further {
             // Rotations leave no multiplier.
-            Further::Nothing => taste != Taste::Freedoms || !task.multipliers,
+            Further::Nothing => taste != Taste::Freedoms || task.multipliers.is_none(),
             Further::Velocities => !matches!(taste, Taste::Multipliers | Taste::Freedoms),
             Further::Copies => taste == Taste::Multipliers,
         };
@@ -276,15 +278,24 @@ pub(crate) fn eliminate(
         factors.push(factor);
     }
     fixed.extend(inertia(d, divisors.iter().map(|(d, _)| d), names, g));
-    let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
+    let all = task.multipliers.is_some();
+    let mut motion = motion.solution(&factors, all, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
-    let shares = match task.multipliers && !droppings.is_empty() {
-        true => shares(&factors, d, &jacobian, names, g)?,
-        false => vec![Some(g.zero()); d.rhs.len()],
+    let shares = match task.multipliers {
+        Some(equations) if !droppings.is_empty() => {
+            let squares = squares(equations, g);
+            let kernel = kernel(&factors, force.len(), &scales, &squares, names, g)?;
+            let kernel = multipliers(&kernel, g.one(), &scales, task.turned, g);
+            shares(&kernel, &squares, g)
+        }
+        _ => vec![Some(g.zero()); own.1],
     };
     motion.coordinates.truncate(own.0);
     task.turned.turn_back(&mut motion.coordinates, g);
-    let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
+    let multipliers = match all {
+        true => multipliers(&motion.constraints, *common_factor, &scales, task.turned, g),
+        false => Vec::new(),
+    };
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
@@ -323,19 +334,28 @@ pub(crate) fn eliminate(
         shares,
         order,
         free,
+        solved,
         inertias,
         place: place(d, own),
         hints,
     })
 }
 
-/// λ from the constraints' part x of a solution: K has M over a common factor, and rows over their scales.
-fn multipliers(x: &[Id], common_factor: Id, scales: &[f64], g: &mut Graph) -> Vec<Id> {
+/// λ from the constraints' part x of a solution: K has M over a common factor, and rows over their scales and as they are `turned`.
+fn multipliers(
+    x: &[Id],
+    common_factor: Id,
+    scales: &[f64],
+    turned: &Turned,
+    g: &mut Graph,
+) -> Vec<Id> {
     let scaled = x.iter().zip(scales).map(|(x, s)| {
         let x = g.mul(*x, common_factor);
         g.scale(-1.0 / s, x)
     });
-    scaled.collect()
+    let mut multipliers: Vec<Id> = scaled.collect();
+    turned.turn_multipliers(&mut multipliers, g);
+    multipliers
 }
 
 /// Inertia that depends on parameters and is no pivot by itself: it must not be negative, nor zero where M has more in its row.

@@ -162,6 +162,19 @@ impl Frame {
         }
     }
 
+    /// The multiplier of its constraint, of which others have what was taken off them.
+    fn turn_multipliers(&self, of: &mut [Id], g: &mut Graph) {
+        let given = self.given.iter();
+        let given = given.map(|(row, a)| (1.0, g.mul(*a, of[*row])));
+        let given: Vec<(f64, Id)> = given.collect();
+        if given.is_empty() {
+            return;
+        }
+        let given = g.factored_sum(&given);
+        let given = g.div(given, self.vectors[0].1);
+        of[self.row] = g.sub(of[self.row], given);
+    }
+
     /// Writes `d`, which has definitions behind its first `m` constraints, in x.
     fn turn(&mut self, d: &mut Dynamics, m: usize, redundant: &BTreeSet<usize>, g: &mut Graph) {
         let (zero, one) = (g.zero(), g.one());
@@ -256,6 +269,15 @@ impl Turned {
         frames.for_each(|frame| frame.take_off(values, g));
         let joints = self.joints.iter();
         joints.for_each(|joint| joint.solve(values, g));
+    }
+
+    /// The multipliers of the constraints as they were, in the place of those `of` the constraints as they are turned. (Of K, turned on both
+    /// sides, a right-hand side is turned as [`Turned::turn`] does it; its solution, the other way round, with the transposes.)
+    pub(super) fn turn_multipliers(&self, of: &mut [Id], g: &mut Graph) {
+        let joints = self.joints.iter();
+        joints.for_each(|joint| joint.turn_multipliers(of, g));
+        let frames = self.frames.iter();
+        frames.for_each(|frame| frame.turn_multipliers(of, g));
     }
 
     /// Puts second derivatives of the coordinates in the place of rates of turning.

@@ -54,6 +54,15 @@ impl Joint {
         }
     }
 
+    /// Puts W⁻ᵀ of its rows' multipliers in their place.
+    pub(super) fn turn_multipliers(&self, of: &mut [Id], g: &mut Graph) {
+        let own: Vec<Id> = self.rows.iter().map(|row| of[*row]).collect();
+        for (r, row) in self.rows.iter().enumerate() {
+            let column: Vec<Id> = self.inverse.iter().map(|inverse| inverse[r]).collect();
+            of[*row] = g.inner(&column, &own);
+        }
+    }
+
     /// The joint with `rows` of `d`, whose rates `of` one body are to stand alone in them, `chosen` ones among these; which `d` is then
     /// written with.
     fn new(

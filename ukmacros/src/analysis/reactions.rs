@@ -7,9 +7,9 @@
 //! λ of a row is unique where no dependence of rows of A has it. Where it takes part in what rows that are left out follow from, or the
 //! certificate of the elimination does not hold, it is not a number, and so is what depends on it.
 
+use super::choice::for_multipliers;
 use super::dynamics::Dynamics;
-use super::elimination::{Further, Straight, Task, eliminate, orders};
-use super::frame::Turned;
+use super::elimination::{Straight, eliminate, orders};
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, Map, Node, Symbol, System};
@@ -78,31 +78,29 @@ fn multipliers(
     if let Some(refusal) = regular.refusal(names) {
         return Err(refusal);
     }
-    let mut ideal = regular.dynamics.clone();
-    ideal.nonideal.fill(system.graph.zero());
-    let task = Task {
-        dynamics: &ideal,
-        weights: &regular.weights,
-        names,
-        own: (ideal.force.len(), ideal.rhs.len()),
-        further: Further::Nothing,
-        redundant: &regular.redundant,
-        turned: &Turned::default(),
-        multipliers: true,
-    };
+    let none = system.graph.zero();
+    let (mut held, mut regular) = (held.clone(), regular.clone());
+    held.nonideal.fill(none);
+    regular.dynamics.nonideal.fill(none);
+    let variant = for_multipliers(system, &held, &regular, names);
+    let own = (held.force.len(), held.rhs.len());
+    let task = variant.task(&regular, own, Some(&regular.dynamics));
     let mut orders = orders(&task, &system.defaults, &system.graph)?;
     // Where inertia may be zero a multiplier is still unique; by a division through it it would not be known.
-    orders.sort_by_key(|order| (order.inertias(&ideal, &system.graph), order.changes));
+    orders.sort_by_key(|order| {
+        let inertias = order.inertias(task.dynamics, &system.graph);
+        (inertias, order.changes)
+    });
     let mut elimination = Err("there is no order of elimination".to_owned());
     for order in orders {
         elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));
     }
     let elimination = elimination?;
-    let straight = Straight::new(elimination, held, &regular.met, system);
+    let straight = Straight::new(elimination, &held, &regular.met, system);
     let g = &mut system.graph;
     let unique = straight
         .elimination
-        .unique(&straight.met, regular.excess, held, g);
+        .unique(&straight.met, regular.excess, &held, g);
     let multipliers = straight
         .elimination
         .multipliers

@@ -33,6 +33,7 @@ const GENERIC: usize = 24;
 const LARGE: usize = 48;
 
 /// Equations for the elimination.
+#[derive(Clone)]
 pub(crate) struct Regular {
     /// With M and Q of the blocks that are made regular.
     pub(crate) dynamics: Dynamics,

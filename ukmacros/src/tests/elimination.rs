@@ -130,7 +130,7 @@ impl Tally {
                     true => Further::Nothing,
                     false => Further::Velocities,
                 },
-                multipliers: false,
+                multipliers: None,
                 redundant: &BTreeSet::new(),
                 turned,
             };
@@ -306,7 +306,7 @@ fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
         names: &names,
         own: (n, dynamics.rhs.len()),
         further: Further::Velocities,
-        multipliers: false,
+        multipliers: None,
         redundant: &BTreeSet::new(),
         turned: &turned,
     };

@@ -56,6 +56,11 @@ pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 /// The same without constraints: see the module.
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
+/// The same for multipliers where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate has,
+/// which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A share
+/// only has to be more than rounding.
+const DEFINITE: f64 = 1e-13;
+
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 pub(super) const MET: f64 = 2e-12;
 
@@ -342,7 +347,8 @@ impl Elimination {
     /// `multipliers`.
     fn certificate(&self, multipliers: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let share = match multipliers {
-            true => SAFE_SHARE * SAFE_SHARE,
+            true if self.solved => SAFE_SHARE * SAFE_SHARE,
+            true => DEFINITE,
             false => self.least_share(),
         };
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));

@@ -113,37 +113,41 @@ pub(super) fn droppings(
     dropped.collect()
 }
 
-/// Of each constraint its share of what the rows left out follow from, squared; `None` where it has none that could be measured.
-///
-/// Of a row k that is left out K has a null vector: with 1 for its multiplier, back substitution alone gives the others of Σ λ_j a_j = 0.
-/// Each is compared with what a row of its length could be, and all rows that are left out are taken at once, in shares that no structure
-/// makes cancel: a multiplier that has nothing of it is the same however the others share their load.
-pub(super) fn shares(
-    factors: &[Factor],
-    d: &Dynamics,
-    jacobian: &BTreeMap<(usize, usize), Id>,
-    names: &[String],
-    g: &mut Graph,
-) -> Result<Vec<Option<Id>>, String> {
-    let (n, m) = (d.force.len(), d.rhs.len());
-    let zero = g.zero();
-    let mut squares: Vec<Vec<(f64, Id)>> = vec![Vec::new(); m];
-    for ((row, i), a) in jacobian {
+/// Of each constraint of `d` the square of its row's length, in units of inertia.
+pub(super) fn squares(d: &Dynamics, g: &mut Graph) -> Vec<Id> {
+    let mut squares: Vec<Vec<(f64, Id)>> = vec![Vec::new(); d.rhs.len()];
+    for ((row, i), a) in &d.jacobian {
         if let Some(mass) = d.mass.get(&(*i, *i)) {
             squares[*row].push((1.0, g.product(&[(*a, 2), (*mass, -1)])));
         }
     }
-    let squares: Vec<Id> = squares.iter().map(|terms| g.sum(terms)).collect();
-    let mut kernel = Forward::new(&vec![zero; n], &vec![zero; m]);
+    squares.iter().map(|terms| g.sum(terms)).collect()
+}
+
+/// Multipliers without forces, over the `scales` of their rows: what the rows left out follow from.
+///
+/// Of a row k that is left out K, of `n` coordinates, has a null vector: with 1 for its multiplier, back substitution alone gives the others
+/// of Σ λ_j a_j = 0. All rows that are left out are taken at once, in shares that no structure makes cancel: a multiplier that has nothing
+/// of it is the same however the others share their load. `squares` are those of the mechanism's own rows.
+pub(super) fn kernel(
+    factors: &[Factor],
+    n: usize,
+    scales: &[f64],
+    squares: &[Id],
+    names: &[String],
+    g: &mut Graph,
+) -> Result<Vec<Id>, String> {
+    let zero = g.zero();
+    let mut kernel = Forward::new(&vec![zero; n], &vec![zero; scales.len()]);
     let mut random = Random::new(3);
     for factor in factors {
         kernel.step(factor, g);
         if let Factor::Single(single) = factor
             && single.reciprocal.is_some()
         {
-            let weight = random.positive();
-            let length = g.call1(Func::Sqrt, squares[single.at - n]);
-            let weight = g.constant(weight);
+            let row = single.at - n;
+            let weight = g.constant(scales[row] * random.positive());
+            let length = g.call1(Func::Sqrt, squares[row]);
             let mut own = g.div(weight, length);
             if !g.is_zero(single.numerator) {
                 let counts = g.scale(SAFE_SHARE, single.reference);
@@ -153,11 +157,17 @@ pub(super) fn shares(
         }
     }
     let found = kernel.solution(factors, true, names, g, &mut Vec::new())?;
-    let shares = found.constraints.iter().zip(&squares).map(|(x, square)| {
+    Ok(found.constraints)
+}
+
+/// Of each constraint its share of what the rows left out follow from, squared: its part of the `kernel`, compared with what a row of its
+/// length could be; `None` where it has none that could be measured.
+pub(super) fn shares(kernel: &[Id], squares: &[Id], g: &mut Graph) -> Vec<Option<Id>> {
+    let shares = kernel.iter().zip(squares).map(|(x, square)| {
         let share = g.product(&[(*x, 2), (*square, 1)]);
         (g.is_zero(*x) || !g.is_zero(*square)).then_some(share)
     });
-    Ok(shares.collect())
+    shares.collect()
 }
 
 /// Of each position the part of the mechanism it is in: parts are not coupled.
