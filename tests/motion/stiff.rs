@@ -235,3 +235,40 @@ fn a_tolerance_below_the_rounding_of_forces_is_told_and_not_refined_past() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A body of little inertia on a ball joint far off. Where that is askew of its axes, what turns it about the line between them is a
+    /// difference of moments 1e11 times as large.
+    pub Askew {
+        params { l = 3e4, tilt = 0.0, j = 0.01, g = 9.81 }
+        bodies { spatial body { mass: 1, inertia: [j, j, j] } }
+        gravity { [0, 0, -g] }
+        holonomic { foot: ball(ground.at([0, 0, 0]), body.at([0, l * sin(tilt), l * cos(tilt)])) }
+        start swinging(rate = 1.0) {
+            body.x = 0.3 * l; body.y = 0.4 * l; body.z near -0.9 * l; body.omega = [rate, 0.3 * rate, 0.2 * rate];
+            body.e0 near 0.9; body.e3 = 0.1
+        }
+    }
+}
+
+/// A sphere of inertia moves the same whichever its axes are.
+#[test]
+fn rounding_within_the_equations_is_told_and_not_refined_past() {
+    let run = |tilt: f64| {
+        let body = Askew {
+            tilt,
+            ..Askew::default()
+        };
+        let rate = (body.g / body.l).sqrt();
+        let start = body.start("swinging", &[("rate", rate)].into());
+        let run = Simulation::new(&body).start(start.expect("a start"));
+        let run = run.tolerance(1e-10).until(5.0 / rate).expect("a motion");
+        let end = run.last().expect("an end").to_state();
+        (end.q[2] / body.l, run.work())
+    };
+    let (plain, work) = run(0.0);
+    assert_eq!(work.rounded, 0);
+    let (askew, work) = run(0.7);
+    assert!((plain - askew).abs() < 1e-8, "{plain} {askew}");
+    assert!(work.rounded > 0 && work.evaluations < 150_000, "{work:?}");
+}

@@ -47,8 +47,7 @@ pub struct Work {
     /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the
     /// Jacobians of an implicit method are not.
     pub evaluations: usize,
-    /// Jacobians of the accelerations, for an implicit method or to measure rounding. Each takes a sweep of dual numbers for each of its
-    /// 2n columns.
+    /// Jacobians of the accelerations, for an implicit method. Each takes a sweep of dual numbers for each of its 2n columns.
     pub jacobians: usize,
     /// Factorisations of the matrices of an implicit method, real and complex counted as one.
     pub factorisations: usize,
