@@ -29,9 +29,10 @@ const BESIDE: u64 = 6;
 /// Roundings of the time over which a difference is nothing but that of accelerations.
 const CLEARLY: f64 = 1024.0;
 
-/// What the stages of a step make of the rounding of one of them in the estimate of its error, 1.5 at most, with room for steps to grow: they
-/// do below 0.6 of what is granted.
-const STAGES: f64 = 2.5;
+/// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
+const STAGES: f64 = 1.5;
+/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
+const SAMPLED: f64 = 2.5;
 
 /// Steps shorter than this share of the run would never end, and are asked whether they get anywhere; so many in a row are not by chance.
 const CREEPING: f64 = 1e-7;
@@ -298,13 +299,13 @@ impl Driver<'_> {
         let n = y.len() / 2;
         let still = y[..n].iter().map(|q| (0.0, *q, *q));
         let moved = rounding.iter().zip(&y[n..]).map(|(x, v)| (*x, *v, *v));
-        let noise = STAGES * error_norm(still.chain(moved), &self.settings.tolerance);
+        let noise = error_norm(still.chain(moved), &self.settings.tolerance);
         if noise.is_finite() {
             self.noise = noise;
         }
     }
 
-    /// What rounding makes of accelerations.
+    /// What rounding makes of the estimate of a step's error, in a unit of time.
     fn rounding(&mut self, s: f64) -> Result<Vec<f64>, Cause> {
         let mut rounding = self.rounding_of_time(s)?;
         let y = self.scheme.start();
@@ -325,7 +326,7 @@ impl Driver<'_> {
             pairs.for_each(|(most, (beside, now))| *most = most.max((beside - now).abs()));
         }
         let all = rounding.iter_mut().zip(most);
-        all.for_each(|(rounding, most)| *rounding += most);
+        all.for_each(|(rounding, most)| *rounding = STAGES * *rounding + SAMPLED * most);
         Ok(rounding)
     }
 
