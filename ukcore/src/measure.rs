@@ -198,7 +198,15 @@ impl Measure {
             jacobian
         };
         let here = jacobian(q);
-        let groups = apart(n, m, mech.spec().structure.jacobian_pattern);
+        let pattern = mech.spec().structure.jacobian_pattern;
+        let groups = apart(n, m, pattern);
+        let lengths = |entry: &dyn Fn(usize) -> f64| {
+            let mut lengths = vec![0.0_f64; m];
+            for (c, j) in pattern {
+                lengths[*c] = lengths[*c].hypot(entry(j * m + c));
+            }
+            lengths
+        };
         let way = BEND * size;
         let mut changes = vec![0.0_f64; m];
         for group in 0..groups.iter().map(|group| group + 1).max().unwrap_or(0) {
@@ -207,15 +215,13 @@ impl Measure {
                 .map(|((q, unit), own)| if *own == group { q + way * unit } else { *q })
                 .collect();
             let there = jacobian(&moved);
-            for (c, most) in changes.iter_mut().enumerate() {
-                let row = (0..n).map(|j| there[j * m + c] - here[j * m + c]);
-                *most = most.max(row.fold(0.0, f64::hypot));
-            }
+            let moves = lengths(&|place| there[place] - here[place]);
+            let pairs = changes.iter_mut().zip(moves);
+            pairs.for_each(|(most, moves)| *most = most.max(moves));
         }
-        let reaches = changes.iter().enumerate().map(|(c, change)| {
-            let length = (0..n).fold(0.0_f64, |length, j| length.hypot(here[j * m + c]));
-            way * length / change
-        });
+        let sizes = lengths(&|place| here[place]);
+        let reaches = sizes.iter().zip(&changes);
+        let reaches = reaches.map(|(length, change)| way * length / change);
         // What is more is that of a row that rounding alone has changed; what is less, of one that vanishes here.
         let bent = reaches.filter(|reach| *reach > LEAST * size && *reach < size / BEND);
         let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
