@@ -3,8 +3,8 @@
 ukcore::multibody! {
     /// Two Scott-Russell linkages that carry a table (two redundant constraints).
     ///
-    /// Two Scott-Russell linkages side by side carry a level table on a spring: the crank of length l, with its end in the middle of a rod of
-    /// length 2l whose foot runs on the x axis, leads the other end of the rod on a vertical line. That it keeps to that line is said
+    /// Two Scott-Russell linkages side by side carry a level table on a spring: the crank of length l, with its end in the middle of a rod
+    /// of length 2l whose foot runs on the x axis, leads the other end of the rod on a vertical line. That it keeps to that line is said
     /// once more by a guide, in both linkages: two of the rows are redundant, which shows where the joints are closed, not off them. y
     /// points up. (The double Scott-Russell linkage is a usual example of a redundantly constrained mechanism of one degree of freedom.)
     pub DoubleScottRussell {

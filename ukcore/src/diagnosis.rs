@@ -40,8 +40,8 @@ pub struct Diagnosis {
     pub degrees_of_freedom: usize,
     /// n less the rank of the holonomic rows: freedoms of position, more than those of motion where constraints are nonholonomic.
     pub freedoms_of_position: usize,
-    /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis, and
-    /// how many of the freedoms of motion these are.
+    /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis,
+    /// and how many of the freedoms of motion these are.
     pub idle: Vec<(String, usize)>,
     /// Constraints that follow from those declared before them.
     pub redundant: Vec<Redundant>,
@@ -51,8 +51,8 @@ pub struct Diagnosis {
     /// are.
     pub undetermined: Vec<String>,
     /// The least singular value of the independent rows of A, each of length 1 in the mass metric: 1 where they are at right angles to each
-    /// other, 0 at a singular position. Of a body turned by a quaternion rows count as of its angular velocity, with the mean of its moments
-    /// of inertia, so that they are as near to each other in any orientation.
+    /// other, 0 at a singular position. Of a body turned by a quaternion rows count as of its angular velocity, with the mean of its
+    /// moments of inertia, so that they are as near to each other in any orientation.
     pub margin: f64,
     /// The constraints that come nearest to depending on each other.
     pub nearest: Vec<String>,
@@ -221,8 +221,8 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
     })
 }
 
-/// The bodies that can move by themselves while all else stays, and in how many ways, where A has these `rows`, measured and of length 1. One
-/// that hangs on one other alone, or on the ground, is what it is there for.
+/// The bodies that can move by themselves while all else stays, and in how many ways, where A has these `rows`, measured and of length 1.
+/// One that hangs on one other alone, or on the ground, is what it is there for.
 fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usize)> {
     let spec = mech.spec();
     let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);

@@ -43,8 +43,8 @@ pub struct Limit {
     pub state: State,
     /// The constraints that hold the drive there, such as those of two rods in one line.
     pub constraints: Vec<String>,
-    /// The coordinate that moves most there, measured by the root of its inertia, or an angle that moves at least half as far: as a drive it
-    /// passes.
+    /// The coordinate that moves most there, measured by the root of its inertia, or an angle that moves at least half as far: as a drive
+    /// it passes.
     pub leader: &'static str,
     units: Vec<&'static str>,
 }

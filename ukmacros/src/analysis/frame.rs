@@ -271,8 +271,8 @@ impl Turned {
         joints.for_each(|joint| joint.solve(values, g));
     }
 
-    /// The multipliers of the constraints as they were, in the place of those `of` the constraints as they are turned. (Of K, turned on both
-    /// sides, a right-hand side is turned as [`Turned::turn`] does it; its solution, the other way round, with the transposes.)
+    /// The multipliers of the constraints as they were, in the place of those `of` the constraints as they are turned. (Of K, turned on
+    /// both sides, a right-hand side is turned as [`Turned::turn`] does it; its solution, the other way round, with the transposes.)
     pub(super) fn turn_multipliers(&self, of: &mut [Id], g: &mut Graph) {
         let joints = self.joints.iter();
         joints.for_each(|joint| joint.turn_multipliers(of, g));

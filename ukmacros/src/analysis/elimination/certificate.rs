@@ -56,9 +56,9 @@ pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 /// The same without constraints: see the module.
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
-/// The same for multipliers where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate has,
-/// which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A share
-/// only has to be more than rounding.
+/// The same for multipliers where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate
+/// has, which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A
+/// share only has to be more than rounding.
 const DEFINITE: f64 = 1e-13;
 
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
@@ -284,8 +284,8 @@ impl Elimination {
     }
 
     /// What each multiplier is to be multiplied by: 1 where it is unique, else not a number. The pivots of all rows that count are safe and
-    /// q̈ meets those of `met`, or none is known. No more rows are left out than the `excess` that follows from the others at any state: one
-    /// more is near a singular position, and moves all others. And of rows that are left out none takes part in what they follow from.
+    /// q̈ meets those of `met`, or none is known. No more rows are left out than the `excess` that follows from the others at any state:
+    /// one more is near a singular position, and moves all others. And of rows that are left out none takes part in what they follow from.
     /// A share of [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
     pub(crate) fn unique(
         &self,

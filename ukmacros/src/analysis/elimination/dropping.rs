@@ -126,9 +126,9 @@ pub(super) fn squares(d: &Dynamics, g: &mut Graph) -> Vec<Id> {
 
 /// Multipliers without forces, over the `scales` of their rows: what the rows left out follow from.
 ///
-/// Of a row k that is left out K, of `n` coordinates, has a null vector: with 1 for its multiplier, back substitution alone gives the others
-/// of Σ λ_j a_j = 0. All rows that are left out are taken at once, in shares that no structure makes cancel: a multiplier that has nothing
-/// of it is the same however the others share their load. `squares` are those of the mechanism's own rows.
+/// Of a row k that is left out K, of `n` coordinates, has a null vector: with 1 for its multiplier, back substitution alone gives the
+/// others of Σ λ_j a_j = 0. All rows that are left out are taken at once, in shares that no structure makes cancel: a multiplier that has
+/// nothing of it is the same however the others share their load. `squares` are those of the mechanism's own rows.
 pub(super) fn kernel(
     factors: &[Factor],
     n: usize,
