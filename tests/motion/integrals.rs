@@ -495,3 +495,83 @@ fn members_of_ensembles_have_integrals() {
         assert_all_close("a member", &member.unwrap().integrals, &expected, 1e-7);
     }
 }
+
+ukcore::multibody! {
+    /// A mass on a spring, and what cancels to rounding in its integrands.
+    pub Cancelling {
+        params { height = 1e3, narrow = 1e-4 }
+        coords { x }
+        mass { x: 1 }
+        potential { 0.5 * sq(x) }
+        let nothing = (height + x) - x - height;
+        integral {
+            nothing = nothing
+            pulse = exp(-sq((t - 0.5) / narrow)) + nothing
+            kink = abs(t - 1.0 / 3.0) + nothing
+        }
+    }
+}
+
+/// Rounding has no end of detail: it is not looked into, and what stands out of it is.
+#[test]
+fn integrands_that_are_rounding_are_not_refined() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for tolerance in [1e-5, 1e-9, 1e-12] {
+            let start = State {
+                t: 0.0,
+                q: vec![1.0],
+                v: vec![0.0],
+            };
+            let run = Simulation::new(Cancelling::default()).method(method);
+            let run = run.tolerance(tolerance).start(start).until(1.0).unwrap();
+            let of = |name: &str| *run.integral(name).unwrap().last().unwrap();
+            let (at, noise) = (format!("{method}, {tolerance}"), 1e3 * f64::EPSILON);
+            assert_close(&at, of("nothing"), 0.0, noise);
+            let pulse = std::f64::consts::PI.sqrt() * 1e-4;
+            assert_close(&at, of("pulse"), pulse, 10.0 * tolerance + noise);
+            assert_close(&at, of("kink"), 5.0 / 18.0, 10.0 * tolerance + noise);
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// An arm on a shaft that turns at the rate at which the arm keeps its place: the motor has nothing to do.
+    pub Conical {
+        params { m = 2.0, l = 1.0, tilt = 0.6, g = 9.81 }
+        let rate = sqrt(g / (l * cos(tilt)));
+        bodies {
+            spatial shaft { mass: 1, inertia: [0.1, 0.1, 0.1] }
+            spatial arm { mass: m, inertia: [1e-3 * m * sq(l), 1e-3 * m * sq(l), 1e-3 * m * sq(l)] }
+        }
+        gravity { [0, 0, -g] }
+        holonomic {
+            bearing: hinge(ground.at([0, 0, 0]), shaft.at([0, 0, 0]), [0, 0, 1])
+            knee: hinge(shaft.at([0, 0, 0]), arm.at([0, 0, l]), [0, 1, 0])
+            motor: drive(ground, shaft, [0, 0, 1], rate * t)
+        }
+        integral { work = reaction(motor) * rate }
+        start turning {
+            shaft.e0 near 1.0; arm.e0 near cos(tilt / 2); arm.e2 = -sin(tilt / 2); arm.x near l * sin(tilt); arm.z near -l * cos(tilt);
+            dot(arm.z) = 0
+        }
+    }
+}
+
+#[test]
+fn a_motor_with_nothing_to_do_has_done_nothing() {
+    for l in [1e-3, 1.0, 1e3] {
+        let conical = Conical {
+            l,
+            ..Conical::default()
+        };
+        let start = conical.start("turning", &[].into()).expect("a start");
+        for tolerance in [1e-6, 1e-11] {
+            let run = Simulation::new(&conical).start(start.clone());
+            let run = run.tolerance(tolerance).until(6.0 * l.sqrt());
+            let run = run.expect("a motion");
+            let work = *run.integral("work").unwrap().last().unwrap();
+            let scale = conical.m * conical.g * l;
+            assert_close("work", work, 0.0, 100.0 * tolerance * scale);
+        }
+    }
+}

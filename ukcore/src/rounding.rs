@@ -5,6 +5,18 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use crate::scalar::tape::player;
 use crate::scalar::{Dual, Scalar, functions};
 
+/// States beside one at hand that show what rounding makes of an evaluation there, for whatever it is computed by: each number is off by ε, in
+/// directions without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
+pub(crate) fn beside(y: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    const STATES: u64 = 6;
+    (1..=STATES).map(|k| {
+        let step = k.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let signs = (1..).map(|i: u64| 1.0 - 2.0 * (i.wrapping_mul(step) >> 63) as f64);
+        let moved = y.iter().zip(signs);
+        moved.map(|(y, sign)| y + sign * f64::EPSILON * y).collect()
+    })
+}
+
 /// A value and the size of its rounding error, in units of ε: that of the inputs, carried on to first order, and one unit of each
 /// intermediate result. (A running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, §3.3.)
 ///

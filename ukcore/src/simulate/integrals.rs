@@ -18,6 +18,7 @@ use crate::error::Error;
 use crate::events::States;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
+use crate::rounding::beside;
 
 /// Points in [−1, 1] that are not negative, and their weights by the rule of 7 points and by that of 4, which is Lobatto's (Gander &
 /// Gautschi 2000). With the ends among them a jump is seen wherever it is.
@@ -37,6 +38,10 @@ const MOST_PARTS: f64 = 1024.0;
 
 /// Halvings of what is integrated at once, after which it is as short as the rounding of its times.
 const HALVINGS: u32 = 50;
+/// Halvings after which it is asked whether there is anything but rounding to be integrated, and how much more of it there may be than was
+/// found at a few states.
+const PLAIN: u32 = 3;
+const NOISE: f64 = 8.0;
 /// An interval whose error is less than this share of it is exact.
 const ROUNDING: f64 = 50.0 * f64::EPSILON;
 
@@ -56,6 +61,8 @@ pub(super) struct Integrals {
     integrands: Vec<f64>,
     /// What they are at a state that is off.
     off: Vec<f64>,
+    /// The most that rounding was found to make of them in the step in hand.
+    noise: Vec<f64>,
 }
 
 /// One integral, so far.
@@ -86,6 +93,7 @@ impl Integrals {
             state: vec![0.0; 2 * mechanism.spec().n()],
             integrands: vec![0.0; count],
             off: vec![0.0; count],
+            noise: vec![0.0; count],
             mechanism: mechanism.clone(),
         })
     }
@@ -99,6 +107,7 @@ impl Integrals {
     pub(super) fn begin(&mut self) {
         self.reached.copy_from_slice(&self.accepted);
         self.reached.iter_mut().for_each(|sum| sum.moved = 0.0);
+        self.noise.fill(0.0);
     }
 
     /// The step in hand is accepted.
@@ -134,6 +143,7 @@ impl Integrals {
                 part.error <= ROUNDING * part.sum.size
                     || part.error <= self.relative * (before.size + part.sum.size)
             });
+            let good = good || (left <= HALVINGS - PLAIN && self.noisy(states, a, b, &parts)?);
             if good || left == 0 || middle == a || middle == b {
                 for (reached, part) in self.reached.iter_mut().zip(parts) {
                     reached.value += part.sum.value;
@@ -185,6 +195,29 @@ impl Integrals {
             }
         };
         Ok(sums.into_iter().map(part).collect())
+    }
+
+    /// Whether the errors of `parts`, from `a` to `b`, are what rounding makes of the integrands there: where all that is integrated cancels,
+    /// halves are no better.
+    fn noisy(
+        &mut self,
+        states: &mut Along<'_>,
+        a: f64,
+        b: f64,
+        parts: &[Part],
+    ) -> Result<bool, Error> {
+        let t = 0.5 * (a + b);
+        self.at(states, t)?;
+        states.states.state(t, &mut self.state);
+        let n = self.state.len() / 2;
+        for moved in beside(&[&[t][..], &self.state].concat()) {
+            let (q, v) = moved[1..].split_at(n);
+            (self.mechanism).integrands(moved[0], q, v, &mut self.off);
+            let pairs = self.noise.iter_mut().zip(&self.off).zip(&self.integrands);
+            pairs.for_each(|((noise, off), f)| *noise = noise.max((off - f).abs()));
+        }
+        let mut pairs = parts.iter().zip(&self.noise);
+        Ok(pairs.all(|(part, noise)| part.error <= NOISE * noise * (b - a).abs()))
     }
 
     /// The integrands at `t`, as the motion is and as it is off.
