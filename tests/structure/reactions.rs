@@ -452,7 +452,7 @@ fn loads_that_are_not_determined_are_not_a_number() {
         .unwrap_err();
     let text = failure.to_string();
     assert!(
-        text.contains("a reaction (not unique where constraints imply each other)"),
+        text.contains("a reaction (not unique where constraints imply each other"),
         "{text}"
     );
 }

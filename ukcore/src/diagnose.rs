@@ -131,7 +131,7 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
     let forces = terms.force.iter().all(|x| x.is_finite());
     let ideal = forces && terms.nonideal.iter().any(|x| !x.is_finite());
     if ideal && spec.structure.loaded {
-        what.push("a reaction (not unique where constraints imply each other)".to_owned());
+        what.push("a reaction (not unique where constraints imply each other; not known where inertias, or lengths and radii of gyration, are too far apart)".to_owned());
     }
     for constraint in non_finite_rows(spec, rhs) {
         if !what.contains(&constraint) {

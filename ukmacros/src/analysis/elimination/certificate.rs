@@ -56,7 +56,12 @@ pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 /// The same without constraints: see the module.
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
-/// The same for multipliers where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate
+/// The same for multipliers, to which there is no other way: half of their digits are left, as rounding of G makes ε G/d of them. What a
+/// lever
+/// between two bearings keeps, or the inertia of a part between heavy ones, may be that little beside what else there is.
+const HALF: f64 = 1.0 / (1 << 27) as f64;
+
+/// The same where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate
 /// has, which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A
 /// share only has to be more than rounding.
 const DEFINITE: f64 = 1e-13;
@@ -286,7 +291,6 @@ impl Elimination {
     /// What each multiplier is to be multiplied by: 1 where it is unique, else not a number. The pivots of all rows that count are safe and
     /// q̈ meets those of `met`, or none is known. No more rows are left out than the `excess` that follows from the others at any state:
     /// one more is near a singular position, and moves all others. And of rows that are left out none takes part in what they follow from.
-    /// A share of [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
     pub(crate) fn unique(
         &self,
         met: &[usize],
@@ -347,7 +351,7 @@ impl Elimination {
     /// `multipliers`.
     fn certificate(&self, multipliers: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let share = match multipliers {
-            true if self.solved => SAFE_SHARE * SAFE_SHARE,
+            true if self.solved => HALF,
             true => DEFINITE,
             false => self.least_share(),
         };
