@@ -5,8 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use crate::scalar::tape::player;
 use crate::scalar::{Dual, Scalar, functions};
 
-/// States beside one at hand that show what rounding makes of an evaluation there, for whatever it is computed by: each number is off by ε, in
-/// directions without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
+/// States beside one at hand that show what rounding makes of an evaluation there, for whatever it is computed by: each number is off by ε,
+/// in directions without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
 pub(crate) fn beside(y: &[f64]) -> impl Iterator<Item = Vec<f64>> {
     const STATES: u64 = 6;
     (1..=STATES).map(|k| {

@@ -197,8 +197,8 @@ impl Integrals {
         Ok(sums.into_iter().map(part).collect())
     }
 
-    /// Whether the errors of `parts`, from `a` to `b`, are what rounding makes of the integrands there: where all that is integrated cancels,
-    /// halves are no better.
+    /// Whether the errors of `parts`, from `a` to `b`, are what rounding makes of the integrands there: where all that is integrated
+    /// cancels, halves are no better.
     fn noisy(
         &mut self,
         states: &mut Along<'_>,

@@ -57,8 +57,7 @@ pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
 /// The same for multipliers, to which there is no other way: half of their digits are left, as rounding of G makes ε G/d of them. What a
-/// lever
-/// between two bearings keeps, or the inertia of a part between heavy ones, may be that little beside what else there is.
+/// lever between two bearings keeps, or the inertia of a part between heavy ones, may be that little beside what else there is.
 const HALF: f64 = 1.0 / (1 << 27) as f64;
 
 /// The same where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate
