@@ -508,6 +508,7 @@ ukcore::multibody! {
             nothing = nothing
             pulse = exp(-sq((t - 0.5) / narrow)) + nothing
             kink = abs(t - 1.0 / 3.0) + nothing
+            ripple = sin(40 * t) + exp(-30 * t)
         }
     }
 }
