@@ -3,6 +3,19 @@
 use crate::mechanism::{Equations, Evaluated, Prepared};
 use crate::rounding::Rounded;
 
+/// States a rounding beside the one at hand that are looked at to see what rounding makes of something.
+pub(crate) const BESIDE: u64 = 6;
+
+/// Number `k` of the states a rounding beside `y`: each coordinate and velocity is off by ε, with signs that have no pattern and are the
+/// same in every run (the low-discrepancy sequence of the golden section).
+pub(crate) fn a_rounding_off(y: &[f64], k: u64) -> impl Iterator<Item = f64> + '_ {
+    y.iter().enumerate().map(move |(i, y)| {
+        let mixed = (i as u64 + 1).wrapping_mul(k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let sign = if mixed >> 63 == 0 { 1.0 } else { -1.0 };
+        y + sign * f64::EPSILON * y
+    })
+}
+
 /// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What
 /// they carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far
 /// more than derivatives tell.

@@ -13,6 +13,7 @@ use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
+use crate::noise::{BESIDE, a_rounding_off};
 use crate::scan::all_finite;
 use passage::Passage;
 use switching::Goal;
@@ -22,9 +23,6 @@ mod switching;
 
 /// Attempts from one measurement of rounding to the next: it takes as many evaluations as one of them.
 const SELDOM: usize = 1000;
-
-/// States a rounding beside the one at hand that are looked at.
-const BESIDE: u64 = 6;
 
 /// Roundings of the time over which a difference is nothing but that of accelerations.
 const CLEARLY: f64 = 1024.0;
@@ -313,13 +311,7 @@ impl Driver<'_> {
         self.equations.acceleration(s, y, &mut now)?;
         let mut most = vec![0.0_f64; n];
         for k in 1..=BESIDE {
-            let moved = y.iter().enumerate().map(|(i, y)| {
-                // Signs without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
-                let mixed = (i as u64 + 1).wrapping_mul(k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-                let sign = if mixed >> 63 == 0 { 1.0 } else { -1.0 };
-                y + sign * f64::EPSILON * y
-            });
-            let moved: Vec<f64> = moved.collect();
+            let moved: Vec<f64> = a_rounding_off(y, k).collect();
             self.equations.acceleration(s, &moved, &mut beside)?;
             let pairs = most.iter_mut().zip(beside.iter().zip(&now));
             pairs.for_each(|(most, (beside, now))| *most = most.max((beside - now).abs()));

@@ -7,7 +7,8 @@
 //!
 //! That of the quadrature costs no step. The rule is Kronrod's extension of Lobatto's of 4 points to 7 (Gander & Gautschi 2000, Adaptive
 //! quadrature revisited, BIT 40, 84-101); intervals are halved until both agree to the tolerance of the run, beside the integral of the
-//! magnitude so far: pulses, kinks and jumps of the integrand, which steps do not land on, are closed in so.
+//! magnitude so far: pulses, kinks and jumps of the integrand, which steps do not land on, are closed in so. Where the integrand is what
+//! cancellation leaves, as the power of a motor in steady motion, no halving makes them agree: states a rounding apart show that.
 //!
 //! That of the motion takes part in the choice of the step size. The integrand is taken a second time along states that are off by what the
 //! method estimates to be its error, growing from 0 at the start of the step; what that changes is held against the tolerance of the run as
@@ -18,6 +19,7 @@ use crate::error::Error;
 use crate::events::States;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
+use crate::noise::{BESIDE, a_rounding_off};
 
 /// Points in [−1, 1] that are not negative, and their weights by the rule of 7 points and by that of 4, which is Lobatto's (Gander &
 /// Gautschi 2000). With the ends among them a jump is seen wherever it is.
@@ -39,6 +41,10 @@ const MOST_PARTS: f64 = 1024.0;
 const HALVINGS: u32 = 50;
 /// An interval whose error is less than this share of it is exact.
 const ROUNDING: f64 = 50.0 * f64::EPSILON;
+/// After so many halvings it is asked whether what is left is rounding, and again after as many.
+const ASKED: u32 = 3;
+/// So many roundings of the integrand are nothing else: states between the ends of a step have a few.
+const NOTHING: f64 = 16.0;
 
 /// The integrals of a run, and how far they are.
 pub(super) struct Integrals {
@@ -130,10 +136,25 @@ impl Integrals {
             }
             let middle = 0.5 * (a + b);
             let parts = self.rule(states, a, b)?;
-            let good = parts.iter().zip(&self.reached).all(|(part, before)| {
+            let good = |part: &Part, before: &Sum| {
                 part.error <= ROUNDING * part.sum.size
                     || part.error <= self.relative * (before.size + part.sum.size)
-            });
+            };
+            let with = parts.iter().zip(&self.reached);
+            let bad: Vec<usize> = with
+                .enumerate()
+                .filter(|(_, (part, before))| !good(part, before))
+                .map(|(k, _)| k)
+                .collect();
+            let asked = left < HALVINGS && left.is_multiple_of(ASKED);
+            let good = bad.is_empty()
+                || asked && {
+                    let rounding = self.rounding(states, middle)?;
+                    let nothing = |k: &usize| {
+                        parts[*k].difference <= NOTHING * rounding[*k] * 0.5 * (b - a).abs()
+                    };
+                    bad.iter().all(nothing)
+                };
             if good || left == 0 || middle == a || middle == b {
                 for (reached, part) in self.reached.iter_mut().zip(parts) {
                     reached.value += part.sum.value;
@@ -181,10 +202,38 @@ impl Integrals {
             let (value, moved) = (half * seven, half.abs() * moved);
             Part {
                 sum: Sum { value, size, moved },
+                difference,
                 error,
             }
         };
         Ok(sums.into_iter().map(part).collect())
+    }
+
+    /// What rounding of the time and of the state at `t` makes of the integrands.
+    fn rounding(&mut self, states: &mut Along<'_>, t: f64) -> Result<Vec<f64>, Error> {
+        let span = states.span().abs();
+        let n = self.state.len() / 2;
+        let mut most = vec![0.0_f64; self.integrands.len()];
+        self.at(states, t)?;
+        let now = self.integrands.clone();
+        let mut compare = |beside: &[f64]| {
+            let pairs = most.iter_mut().zip(beside.iter().zip(&now));
+            pairs.for_each(|(most, (beside, now))| *most = most.max((beside - now).abs()));
+        };
+        for late in [t.next_up(), t.next_down()] {
+            if (late - states.from).abs() <= span && (late - states.to).abs() <= span {
+                self.at(states, late)?;
+                compare(&self.integrands);
+            }
+        }
+        states.states.state(t, &mut self.state);
+        for k in 1..=BESIDE {
+            let moved: Vec<f64> = a_rounding_off(&self.state, k).collect();
+            let (q, v) = moved.split_at(n);
+            self.mechanism.integrands(t, q, v, &mut self.off);
+            compare(&self.off);
+        }
+        Ok(most)
     }
 
     /// The integrands at `t`, as the motion is and as it is off.
@@ -217,9 +266,10 @@ impl Integrals {
     }
 }
 
-/// What an interval adds to an integral, and how far off the quadrature is.
+/// What an interval adds to an integral, by how much its two rules differ, and how far off the quadrature is.
 struct Part {
     sum: Sum,
+    difference: f64,
     error: f64,
 }
 
