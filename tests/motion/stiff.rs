@@ -272,3 +272,74 @@ fn rounding_within_the_equations_is_told_and_not_refined_past() {
     assert!((plain - askew).abs() < 1e-8, "{plain} {askew}");
     assert!(work.rounded > 0 && work.evaluations < 150_000, "{work:?}");
 }
+
+ukcore::multibody! {
+    /// A bar on a pivot that is shaken; z points up.
+    Shaken {
+        params { m = 1.0, l = 0.5, j = 0.02, a = 0.1, w = 7.0, g = 9.81, t0 = 0.0 }
+        bodies { spatial bar { mass: m, inertia: [j, 0.5 * j, j] } }
+        gravity { [0, 0, -g] }
+        holonomic { pivot: hinge(ground.at([0, 0, 0]), bar.at([a * sin(w * (t - t0)), 0, l]), [0, 1, 0]) }
+        start out(angle = 0.7) {
+            bar.e0 = cos(angle / 2.0); bar.e1 = 0; bar.e2 = sin(angle / 2.0); bar.e3 = 0;
+            bar.x near -l * sin(angle); bar.z near -l * cos(angle)
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A body between six hard springs, `far` from the origin.
+    Sprung {
+        params { m = 1.0, j = 0.01, k = 1e6, far = 0.0, s = 0.1 }
+        bodies { spatial body { mass: m, inertia: [j, 1.2 * j, 1.5 * j] } }
+        let axis = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+        forces {
+            for i in 0..3 {
+                spring(ground.at([far, 0, 0] + (s + 1.0) * axis[i]), body.at(s * axis[i]), k, 0.9)
+                spring(ground.at([far, 0, 0] - (s + 1.0) * axis[i]), body.at(-s * axis[i]), k, 0.9)
+            }
+        }
+        start kicked { body.e0 = 1; body.x = far; dot(body.x) = 1; body.omega = [1, 2, 3] }
+    }
+}
+
+/// Steps may be so short that none is refused for the rounding in it: then a run took a hundred thousand of them, as long as none was. Late
+/// they are so short that the rounding of the time is as much: then a run was refused before rounding was looked at.
+#[test]
+fn rounding_is_found_where_no_step_is_refused_for_it_and_where_all_are() {
+    let sprung = |far: f64| {
+        let body = Sprung {
+            far,
+            ..Sprung::default()
+        };
+        let start = body.start("kicked", &[].into()).expect("a start");
+        let run = Simulation::new(&body).start(start).tolerance(1e-13);
+        let run = run.until(0.2).expect("a motion");
+        let end = run.last().expect("an end").to_state();
+        (end.q[0] - far, run.work())
+    };
+    let (known, work) = sprung(0.0);
+    assert_eq!(work.rounded, 0);
+    let (found, work) = sprung(1e6);
+    // A coordinate is known to 1.2e-10, and is rounded in two thousand steps.
+    assert!((found - known).abs() < 1e-8, "{found} {known}");
+    assert!(work.rounded > 100 && work.evaluations < 40_000, "{work:?}");
+
+    let shaken = |t: f64, tolerance: f64| {
+        let early = Shaken::default();
+        let start = early.start("out", &[].into()).expect("a start");
+        let bar = Shaken { t0: t, ..early };
+        let run = Simulation::new(bar).start(State { t, ..start });
+        let run = run.tolerance(tolerance).until(t + 3.0).expect("a motion");
+        let end = run.last().expect("an end").to_state();
+        (2.0 * end.q[5].atan2(end.q[3]), run.work())
+    };
+    let (known, work) = shaken(0.0, 1e-13);
+    assert_eq!(work.rounded, 0);
+    for tolerance in [1e-10, 1e-12, 1e-14] {
+        let (found, work) = shaken(1e9, tolerance);
+        // The time is known to 1.2e-7.
+        assert!((found - known).abs() < 1e-6, "{tolerance}: {found} {known}");
+        assert!(work.rounded > 0 && work.evaluations < 20_000, "{work:?}");
+    }
+}

@@ -92,7 +92,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
     let spec = mech.spec();
     let (n, m) = (spec.n(), spec.m());
     state.check(&mech)?;
-    let mut solver = Solver::new(&mech, SolverOptions::default());
+    let mut solver = Solver::new(&mech, SolverOptions::default()).ideal();
     let (rank, rows) = independent(&mut solver, state)?;
     let relations = relations(&rows, rank);
     let names = |rows: &[usize]| spec.constraint_names(rows);
@@ -143,7 +143,7 @@ pub fn diagnose_along(
     states: impl IntoIterator<Item = State>,
 ) -> Result<Option<Diagnosis>, Error> {
     let mech: Prepared = mechanism.into();
-    let mut solver = Solver::new(&mech, SolverOptions::default());
+    let mut solver = Solver::new(&mech, SolverOptions::default()).ideal();
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
         let found = independent(&mut solver, &state).map(|(rank, rows)| {

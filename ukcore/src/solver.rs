@@ -91,6 +91,8 @@ pub struct Solver {
     granted: Vec<f64>,
     known: refine::Known,
     light: light::Light,
+    /// Whether c is left out.
+    ideal: bool,
     dropping: Dropping,
 }
 
@@ -141,6 +143,7 @@ impl Solver {
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
             light: light::Light::new(n, m),
+            ideal: false,
             dropping: Dropping::new(),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
@@ -261,6 +264,12 @@ impl Solver {
         self.solve_for_force(decided.formula, out);
         self.remember(decided.formula);
         self.check(t, q, v, decided.tolerance, out)
+    }
+
+    /// Leaves c out of what [`Solver::solve`] solves: it may be no number where reactions are not, while constraints are what they are.
+    pub(crate) fn ideal(mut self) -> Self {
+        self.ideal = true;
+        self
     }
 
     /// Accelerations, forces, multipliers and rank at (t, q, q̇). Allocates its result.
@@ -421,6 +430,9 @@ impl Solver {
         diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
+        if self.ideal {
+            self.here.nonideal.fill(0.0);
+        }
         self.work.evaluations += 1;
         self.drift.known = false;
         self.carried.fill(0.0);

@@ -21,8 +21,10 @@ use switching::Goal;
 mod passage;
 mod switching;
 
-/// Attempts from one measurement of rounding to the next: it takes as many evaluations as one of them.
+/// Attempts from one measurement of rounding to the next, and where steps are nearly lost in the rounding of the time: it takes as many
+/// evaluations as one of them.
 const SELDOM: usize = 1000;
+const OFTEN: usize = 5;
 
 /// Roundings of the time over which a difference is nothing but that of accelerations.
 const CLEARLY: f64 = 1024.0;
@@ -202,6 +204,8 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
+        // Steps may be so short that none is refused for the rounding in it.
+        self.measure(SELDOM);
         (self.passage.plans, self.passage.astray) = (0, false);
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
@@ -233,7 +237,9 @@ impl Driver<'_> {
                 return Err(Error::too_small(h.abs()));
             }
             Refusal::Inaccurate(error) => {
-                self.measure();
+                let rounding = f64::EPSILON * self.equations.course.now.t.abs();
+                let lost = h.abs() < CLEARLY * rounding;
+                self.measure(if lost { OFTEN } else { SELDOM });
                 (self.scheme.inaccurate(h, error), None)
             }
             // Beyond a zero there may be no value in the branch held.
@@ -281,12 +287,12 @@ impl Driver<'_> {
         Ok(early.max(late))
     }
 
-    /// Measures the rounding of accelerations, now and then: what an error of ε in the time makes of them, and one of ε in all coordinates
-    /// and velocities. That shows the rounding of whatever they are computed by, too.
-    fn measure(&mut self) {
+    /// Measures the rounding of accelerations, once in `seldom` attempts: what an error of ε in the time makes of them, and one of ε in all
+    /// coordinates and velocities. That shows the rounding of whatever they are computed by, too.
+    fn measure(&mut self, seldom: usize) {
         let Equations { course, .. } = &self.equations;
         let (s, attempts) = (course.now.s, course.attempts);
-        if self.measured.is_none_or(|last| attempts < last + SELDOM) {
+        if self.measured.is_none_or(|last| attempts < last + seldom) {
             return;
         }
         self.measured = Some(attempts);

@@ -5,7 +5,7 @@ use super::vanishing::{Loss, Vanishing};
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::diagnose;
-use crate::diagnosis::{STANDS, dead_centre};
+use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Singular, Step, Tolerance, Trouble};
@@ -330,6 +330,13 @@ pub(super) fn explain(
         && !terms.is_empty()
     {
         trouble.error = Error::NoDirection { terms };
+    }
+    if let Error::NonFinite { what } = &mut trouble.error
+        && mechanism.spec().structure.loaded
+        && let Some(last) = what.last_mut()
+        && let Some(cause) = lost_reactions(mechanism, &trouble.state)
+    {
+        *last += &format!("; {cause}");
     }
     trouble.into_error()
 }
