@@ -168,3 +168,72 @@ fn a_motor_beside_redundant_bearings_has_a_torque() {
         );
     }
 }
+
+ukcore::multibody! {
+    /// A bevel differential; its wheels turn about x, and its pinion about y of the carrier.
+    Differential {
+        params { a = 0.1, m = 0.3, j = 0.003, torque = 5.0, drag = 0.4 }
+        let contact = |s| carrier.at([s * a, a, 0]);
+        let speed = |b, s| inner(dot(b.centre) + cross(b.omega, contact(s) - b.centre), carrier.along([0, 0, 1]));
+        bodies {
+            spatial carrier { mass: 1, inertia: [0.05, 0.05, 0.05] }
+            spatial wheel[2] { mass: 1, inertia: [0.02, 0.02, 0.02] }
+            spatial pinion { mass: m, inertia: [j, j, j] }
+        }
+        holonomic {
+            axle: hinge(ground.at([0, 0, 0]), carrier.at([0, 0, 0]), [1, 0, 0])
+            for i in 0..2 { bearing[i]: hinge(ground.at([(2 * i - 1) * a, 0, 0]), wheel[i].at([0, 0, 0]), [1, 0, 0]) }
+            pin: hinge(carrier.at([0, a, 0]), pinion.at([0, 0, 0]), [0, 1, 0])
+        }
+        nonholonomic { for i in 0..2 { mesh[i]: speed(wheel[i], 2 * i - 1) = speed(pinion, 2 * i - 1) } }
+        forces { torque(carrier, [torque, 0, 0]) torque(wheel[0], -drag * wheel[0].omega) }
+        output {
+            force[0] = reaction(mesh[0]), force[1] = reaction(mesh[1])
+            change[0] = (a * reaction(mesh[0]) - drag * wheel[0].omega[0]) / 0.02, change[1] = a * reaction(mesh[1]) / 0.02
+        }
+        start rest {
+            carrier.e0 near 1.0; pinion.e0 near 1.0; pinion.y near a;
+            for i in 0..2 { wheel[i].e0 near 1.0; wheel[i].x near (2 * i - 1) * a }
+        }
+    }
+}
+
+/// Between meshes a body without inertia leaves their forces what they are; one with so little that rounding is as much leaves none, and
+/// that is said of the body, not of the meshes.
+#[test]
+fn a_body_too_light_for_reactions_is_named() {
+    for share in [1.0, 1e-3, 1e-5, 1e-9] {
+        let gear = Differential {
+            m: 0.3 * share,
+            j: 0.003 * share,
+            ..Differential::default()
+        };
+        let start = gear.start("rest", &[].into()).expect("a start");
+        let run = Simulation::new(&gear).start(start).tolerance(1e-10);
+        let run = run.every(0.1).until(1.0).expect("a motion");
+        let told = lost_reactions(&gear, &run.last().expect("an end").to_state());
+        let of = |name: &str| run.output(name).expect("an output");
+        if share < 1e-6 {
+            assert!(of("force[0]").iter().all(|x| x.is_nan()));
+            let told = told.expect("a cause");
+            for part in ["`pinion` is so light", "`mesh[0]`", "more inertia"] {
+                assert!(told.contains(part), "{told}");
+            }
+            continue;
+        }
+        // By Lagrange's equations in the rates of the wheels: the carrier has their mean, the pinion half their difference.
+        let (both, apart) = ((0.05 + gear.m * 0.01 + gear.j) / 4.0, gear.j / 4.0);
+        let (own, other) = (0.02 + both + apart, both - apart);
+        let (force, change) = (
+            ["force[0]", "force[1]"].map(of),
+            ["change[0]", "change[1]"].map(of),
+        );
+        for k in 0..11 {
+            let drag = 0.02 * change[0][k] - gear.a * force[0][k];
+            let [p, q] = [gear.torque / 2.0 + drag, gear.torque / 2.0];
+            let size = own * own - other * other;
+            assert_close("left", change[0][k], (own * p - other * q) / size, 1e-7);
+            assert_close("right", change[1][k], (own * q - other * p) / size, 1e-7);
+        }
+    }
+}

@@ -18,9 +18,11 @@ use crate::spec::Spec;
 use crate::spectrum::singular;
 
 mod dead_centre;
+mod light;
 
 use dead_centre::NEARLY;
 pub(crate) use dead_centre::{STANDS, dead_centre, leader};
+use light::light;
 
 /// A row takes part in what comes near to dependence if it has this part of the largest share.
 const SHARE: f64 = 0.5;
@@ -205,6 +207,14 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
         let drives = quoted(&constraints);
         return Some(format!(
             "what {drives} prescribes comes to a dead centre there, where reactions grow beyond all bounds: end the run before"
+        ));
+    }
+    if found.undetermined.is_empty()
+        && let Some(body) = light(&mech, state, &found.nearest)
+    {
+        let rows = quoted(&found.nearest);
+        return Some(format!(
+            "`{body}` is so light there beside what {rows} join it to that they all but imply each other: give it more inertia, or do without these reactions"
         ));
     }
     let (rows, how) = match found.undetermined.is_empty() {
