@@ -152,7 +152,7 @@ pub enum Error {
     /// The number of steps allowed was used up.
     #[error(
         "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take \
-         `Method::Radau5`"
+         `Method::Radau5` in place of an explicit method"
     )]
     TooManySteps {
         /// The number.
@@ -306,7 +306,7 @@ fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
         ),
         _ => (
             format!("steps fell to {step:.1e}, with which the run does not get on"),
-            "the tolerance be too tight, or forces so stiff that they take `Method::Radau5`",
+            "the tolerance be too tight, or forces so stiff that no explicit method does, but `Method::Radau5`",
         ),
     };
     let fastest = fastest.map_or(String::new(), |(name, acceleration)| {
