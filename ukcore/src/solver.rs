@@ -196,7 +196,7 @@ impl Solver {
     /// Accelerations by the straight line, if it can be trusted.
     #[inline]
     pub(crate) fn goes_straight(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
-        if !self.straight_line || self.singular {
+        if !self.straight_line {
             return false;
         }
         // It may leave before it writes anything.
@@ -228,7 +228,7 @@ impl Solver {
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        if !self.straight_line || self.singular {
+        if !self.straight_line {
             return self.rank_revealing(t, q, v, out);
         }
         if self.dropping.is_uneven() && all_finite(out) {
