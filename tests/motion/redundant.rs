@@ -3,6 +3,7 @@
 
 mod bennett;
 mod mechanisms;
+mod mill;
 mod sarrus;
 
 use mechanisms::SpatialFourBar;

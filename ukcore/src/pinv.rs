@@ -1,10 +1,14 @@
 //! A rank-revealing pseudo-inverse with an explicit tolerance.
 //!
 //! A matrix C (rows: constraints) is taken apart as Cᵀ P = Q \[R₁₁ R₁₂; 0 R₂₂\] by Householder reflections with column pivoting,
-//! so that the rows of C that the others imply come last and can be named. With the rank r decided, R₂₂ counts as zero and
-//! \[R₁₁ R₁₂\] = \[T 0\] Zᵀ by reflections from the right: the complete orthogonal decomposition, from which
+//! so that the rows of C that the others imply come last and can be named. With the rank r decided, \[R₁₁ R₁₂\] = \[T 0\] Zᵀ by
+//! reflections from the right. Where R₂₂ = 0 that is the complete orthogonal decomposition, from which
 //!
 //! C⁺ = Q₁ T⁻ᵀ Z₁ᵀ Pᵀ,  (Cᵀ)⁺ = P Z₁ T⁻¹ Q₁ᵀ.
+//!
+//! Where it is what drift off the constraints lends to rows that imply each other on them, \[0 R₂₂\] Z = \[E F\] is of its size: Z₂ are the
+//! dependences up to its square, F, what C has in them, counts as zero, and reflections from the left take E into T. Without that C⁺
+//! would be that of the rows that happened to be chosen, and jump by the drift where others are.
 //!
 //! Rows are interchanged too, the largest entry first: with that the reflections are stable row by row, and coordinates of
 //! very different mass (rows of M^−½Aᵀ of very different size) keep their digits (Cox & Higham 1998).
@@ -35,6 +39,9 @@ pub(crate) struct Decomposition {
     /// \[T Z\] of the second step; leading dimension `n`.
     t: Vec<f64>,
     zeta: Vec<f64>,
+    /// The reflectors that take E into T, in the rows of E, and their factors; leading dimension `n`.
+    e: Vec<f64>,
+    epsilon: Vec<f64>,
     steps: usize,
     rank: usize,
     work_n: Vec<f64>,
@@ -56,6 +63,8 @@ impl Decomposition {
             significance: vec![0.0; m],
             t: vec![0.0; n * m],
             zeta: vec![0.0; n.min(m)],
+            e: vec![0.0; n * n.min(m)],
+            epsilon: vec![0.0; n.min(m)],
             steps: 0,
             rank: 0,
             work_n: vec![0.0; n],
@@ -222,6 +231,56 @@ impl Decomposition {
                 }
             }
         }
+        self.take_in();
+    }
+
+    /// Takes E into T, where there is any.
+    fn take_in(&mut self) {
+        if !self.drifts() {
+            return;
+        }
+        let (n, m, r, steps) = (self.n, self.m, self.rank, self.steps);
+        let mut work = std::mem::take(&mut self.work_m);
+        for l in r..steps {
+            let row = &mut work[..m];
+            row.fill(0.0);
+            for (c, x) in row.iter_mut().enumerate().skip(l) {
+                *x = self.a[c * n + l];
+            }
+            (0..r).rev().for_each(|i| self.reflect_z(i, row));
+            for (i, x) in row[..r].iter().enumerate() {
+                self.e[i * n + l] = *x;
+            }
+        }
+        let column = &mut work[..=steps - r];
+        for i in 0..r {
+            column[0] = self.t[i * n + i];
+            column[1..].copy_from_slice(&self.e[i * n + r..i * n + steps]);
+            (self.t[i * n + i], self.epsilon[i]) = householder(column);
+            let v = &column[1..];
+            self.e[i * n + r..i * n + steps].copy_from_slice(v);
+            for c in i + 1..r {
+                let tail = &mut self.e[c * n + r..c * n + steps];
+                let s = self.epsilon[i] * (self.t[c * n + i] + dot(v, tail));
+                self.t[c * n + i] -= s;
+                axpy(-s, v, tail);
+            }
+        }
+        self.work_m = work;
+    }
+
+    /// Whether there is an E.
+    fn drifts(&self) -> bool {
+        (1..self.steps).contains(&self.rank)
+    }
+
+    /// Reflection i of those that take E into T on `x` (length n, permuted).
+    fn reflect_e(&self, i: usize, x: &mut [f64]) {
+        let v = &self.e[i * self.n + self.rank..i * self.n + self.steps];
+        let (head, tail) = x[..self.steps].split_at_mut(self.rank);
+        let s = self.epsilon[i] * (head[i] + dot(v, tail));
+        head[i] -= s;
+        axpy(-s, v, tail);
     }
 
     /// Reflection i of Z on `y` (length m).
@@ -267,7 +326,12 @@ impl Decomposition {
         let mut z = std::mem::take(&mut self.work_n);
         z.fill(0.0);
         set(&mut z);
-        (0..self.rank).rev().for_each(|k| self.reflect_q(k, &mut z));
+        if self.drifts() {
+            (0..self.rank).rev().for_each(|i| self.reflect_e(i, &mut z));
+        }
+        (0..self.steps)
+            .rev()
+            .for_each(|k| self.reflect_q(k, &mut z));
         for (z, &i) in z.iter().zip(&self.row) {
             x[i] = *z;
         }
@@ -295,7 +359,10 @@ impl Decomposition {
         for (z, &i) in z.iter_mut().zip(&self.row) {
             *z = x[i];
         }
-        (0..r).for_each(|k| self.reflect_q(k, &mut z));
+        (0..self.steps).for_each(|k| self.reflect_q(k, &mut z));
+        if self.drifts() {
+            (0..r).for_each(|i| self.reflect_e(i, &mut z));
+        }
         // T y = Q₁ᵀ x, backwards.
         for i in (0..r).rev() {
             z[i] /= self.t[i * n + i];
@@ -465,6 +532,47 @@ mod tests {
     }
 
     #[test]
+    fn what_drift_lends_counts_to_its_square_alone() {
+        let mut next = numbers();
+        for (m, n, rank) in [(5, 7, 3), (6, 6, 4), (7, 5, 3), (4, 9, 3), (4, 6, 1)] {
+            let left = DMatrix::from_fn(m, rank, |_, _| next());
+            let implied = left * DMatrix::from_fn(rank, n, |_, _| next());
+            let drift = 1e-5;
+            let c = implied + DMatrix::from_fn(m, n, |_, _| drift * next());
+            let mut d = Decomposition::new(m, n);
+            d.load(m).copy_from_slice(c.transpose().as_slice());
+            d.factor(&vec![1.0; n], &vec![1.0; m], 1e-11);
+            assert_eq!(d.rank(), m.min(n));
+            d.set_rank(rank);
+            // C⁺ without the singular values that drift lends.
+            let mut svd = c.clone().svd(true, true);
+            svd.singular_values
+                .iter_mut()
+                .skip(rank)
+                .for_each(|s| *s = 0.0);
+            let exact = svd.pseudo_inverse(0.0).expect("both factors");
+            let (mut inverse, mut transposed) = (DMatrix::zeros(n, m), DMatrix::zeros(m, n));
+            let unit =
+                |k: usize, of: usize| -> Vec<f64> { (0..of).map(|i| f64::from(i == k)).collect() };
+            for i in 0..m {
+                d.solve(&unit(i, m), inverse.column_mut(i).as_mut_slice());
+            }
+            for j in 0..n {
+                d.solve_transposed(&unit(j, n), transposed.column_mut(j).as_mut_slice());
+            }
+            let bound = 1e3 * drift * drift * exact.amax().powi(3);
+            assert!((&inverse - &exact).amax() < bound, "{m} × {n}");
+            assert!(
+                (&transposed - exact.transpose()).amax() < bound,
+                "{m} × {n}"
+            );
+            let mut basis = DMatrix::zeros(n, n - rank);
+            d.null_space(basis.as_mut_slice());
+            assert!((&exact * &c * &basis).amax() < bound, "{m} × {n}");
+        }
+    }
+
+    #[test]
     fn a_lower_rank_can_be_taken_afterwards() {
         let c = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 1.0, 1e-6]);
         let mut d = Decomposition::new(2, 2);
@@ -475,6 +583,9 @@ mod tests {
         d.set_rank(1);
         d.solve(&[1.0, 1.0], &mut x);
         assert!((x[0] - 1.0).abs() < 1e-6 && x[1].abs() < 1e-6);
+        d.set_rank(0);
+        d.solve(&[1.0, 1.0], &mut x);
+        assert_eq!(x, [0.0; 2]);
         d.set_rank(2);
         d.solve(&[1.0, 2.0], &mut x);
         assert!((x[0] - 1.0).abs() < 1e-9 && (x[1] - 1e6).abs() < 1e-3);
