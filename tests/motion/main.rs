@@ -1,6 +1,7 @@
 //! Tests of motions: runs in closed form and against oracles, singular positions, switches, failures. One program, so that what they share
 //! is linked once.
 
+mod bearings;
 mod branches;
 mod cells;
 mod crossings;

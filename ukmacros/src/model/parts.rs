@@ -4,7 +4,7 @@ use super::renaming::{Renaming, bound, section, uses};
 use super::resolve::bare;
 use super::types::{Model, Variable, every, indexed};
 use crate::diag::{Diagnostics, suggest};
-use crate::parse::{Block, Declaration, Given, Key, Let, LetValue, PartUse, Table, parse};
+use crate::parse::{Applied, Block, Declaration, Given, Key, Let, LetValue, PartUse, Table, parse};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -440,9 +440,12 @@ impl Whole<'_> {
             &mut self.decl.nonideal,
             inner.nonideal,
             r,
-            &mut |r, entry| {
-                r.key(&mut entry.key);
-                r.expr(&mut entry.value);
+            &mut |r, applied| match applied {
+                Applied::To(entry) => {
+                    r.key(&mut entry.key);
+                    r.expr(&mut entry.value);
+                }
+                Applied::By(e) => r.expr(e),
             },
         );
         r.blocks(&mut inner.force, &mut |r, entry| {

@@ -1,7 +1,7 @@
 //! What is declared under `params`, by `let` or as an option of a start, and named nowhere.
 
 use super::types::Model;
-use crate::parse::{Block, Declaration, Expr, ExprKind, Key, Let, LetValue, Start};
+use crate::parse::{Applied, Block, Declaration, Expr, ExprKind, Key, Let, LetValue, Start};
 use proc_macro2::Ident;
 use std::collections::HashSet;
 
@@ -99,9 +99,12 @@ fn used(decl: &Declaration) -> HashSet<String> {
     for blocks in sections.map(|s| &s.blocks).chain([&decl.forces]) {
         found.blocks(blocks, |term| (Vec::new(), vec![term]));
     }
-    let nonideal = decl.nonideal.iter().map(|section| &section.blocks);
-    for blocks in std::iter::once(&decl.force).chain(nonideal) {
-        found.blocks(blocks, |entry| (vec![&entry.key], vec![&entry.value]));
+    found.blocks(&decl.force, |entry| (vec![&entry.key], vec![&entry.value]));
+    if let Some(section) = &decl.nonideal {
+        found.blocks(&section.blocks, |applied| match applied {
+            Applied::To(entry) => (vec![&entry.key], vec![&entry.value]),
+            Applied::By(e) => (Vec::new(), vec![e]),
+        });
     }
     for blocks in [&decl.holonomic, &decl.nonholonomic] {
         found.blocks(blocks, |c| {

@@ -3,8 +3,8 @@
 use super::expr::{Expr, location};
 use super::grammar::{blocks, coordinates, declared, docs, expression, key};
 use super::item::{
-    Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry, Output,
-    Param, PartUse, Shape, Start, StartOption,
+    Applied, Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry,
+    Output, Param, PartUse, Shape, Start, StartOption,
 };
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Ident, TokenStream};
@@ -223,10 +223,18 @@ pub(super) fn acting(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<
     Ok(e)
 }
 
+/// `x: value`, or `torque(a, b, m)`.
+pub(super) fn applied(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Applied> {
+    if input.peek(syn::Ident) && input.peek2(syn::token::Paren) {
+        return Ok(Applied::By(expression(input, diag)?));
+    }
+    Ok(Applied::To(entry(input, diag)?))
+}
+
 pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let key = coordinates(input, diag)?;
     if input.peek(syn::token::Paren) {
-        let message = "a generalised force belongs to a coordinate; a force at a point of a body goes under `forces`: `force(link.at([0, 0]), [fx, fy])`";
+        let message = "a generalised force belongs to a coordinate; a force at a point of a body goes under `forces`: `force(link.at([0, 0]), [fx, fy])`, or under `nonideal`";
         return Err(syn::Error::new(key.name.span(), message));
     }
     let _: Token![:] = input.parse()?;

@@ -4,8 +4,8 @@
 //! meaning.
 
 use super::entries::{
-    acting, body, coord_entry, entry, equation, joint, let_entry, mass_entry, output_entry,
-    param_entry, part, shape, start, term,
+    acting, applied, body, coord_entry, entry, equation, joint, let_entry, mass_entry,
+    output_entry, param_entry, part, shape, start, term,
 };
 use super::expr::{Expr, Range};
 use super::item::{Block, Const, Declaration, Key, Measure, Merged, Section};
@@ -160,7 +160,7 @@ fn section(
         "force" => blocks(input, &mut out.force, diag, entry),
         "forces" => blocks(input, &mut out.forces, diag, acting),
         "dissipation" => present(input, keyword, &mut out.dissipation, diag, term),
-        "nonideal" => present(input, keyword, &mut out.nonideal, diag, entry),
+        "nonideal" => present(input, keyword, &mut out.nonideal, diag, applied),
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),

@@ -40,7 +40,7 @@ pub(crate) struct Declaration {
     pub(crate) potential: Option<Section<Expr>>,
     pub(crate) holonomic: Vec<Block<Equation>>,
     pub(crate) nonholonomic: Vec<Block<Equation>>,
-    pub(crate) nonideal: Option<Section<Entry>>,
+    pub(crate) nonideal: Option<Section<Applied>>,
     pub(crate) outputs: Vec<Block<Output>>,
     pub(crate) integrals: Vec<Block<Output>>,
     pub(crate) starts: Vec<Start>,
@@ -195,6 +195,12 @@ pub(crate) struct MassEntry {
 pub(crate) struct Entry {
     pub(crate) key: Key,
     pub(crate) value: Expr,
+}
+
+/// An entry of `nonideal`: of a coordinate, or what acts on bodies.
+pub(crate) enum Applied {
+    To(Entry),
+    By(Expr),
 }
 
 /// `name: lhs = rhs`, or `name: joint(…)`.

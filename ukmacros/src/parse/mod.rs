@@ -12,7 +12,7 @@ mod words;
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
-    Block, Body, Const, Declaration, Entry, Equation, Function, Given, Guess, Key, Let, LetValue,
-    MassEntry, Measure, Output, PartUse, Section, Shape, Start,
+    Applied, Block, Body, Const, Declaration, Entry, Equation, Function, Given, Guess, Key, Let,
+    LetValue, MassEntry, Measure, Output, PartUse, Section, Shape, Start,
 };
 pub(crate) use table::{Table, split};

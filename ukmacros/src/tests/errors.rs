@@ -213,6 +213,10 @@ cases! {
     // Syntax.
     let_within_a_section: "coords { x } mass { x: 1.0 } output { «let» u = x; o = u }" => "`let` stands beside sections, before the first that uses it";
     until_behind_the_braces: "coords { x } mass { x: 1.0 } start a { x = 1.0 } «until» 3.0 output { o = x }" => "`until` of a start stands before its braces: `start a until 2.0 { … }`";
+    nonideal_spring: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { «spring»(ground.at([0, 0]), a.at([1, 0]), 2.0, 1.0) }" => "a `spring` has a potential, which no constraint force has; it stands under `forces`";
+    nonideal_misspelt: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { «torqe»(a, 1.0) }" => "nothing that acts is called `torqe`; did you mean `torque`?";
+    nonideal_force_at_the_centre: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { a.«centre»: [0, 1] }" => "body `a` has no coordinate `centre`; what acts on it is written `force(a.at(p), F)` or `torque(a, M)`, under `forces` or `nonideal`";
+    nonideal_moment_of_a_vector: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { torque(a, «[0, 1]») }" => "`m` of `torque(b, m)` is a number, found a vector of 2";
     generalised_force_of_a_point: "bodies { planar a { mass: 1.0, inertia: 1.0 } } force { «a».at([1, 0]): [0, 1] }" => "goes under `forces`: `force(link.at([0, 0]), [fx, fy])`";
     caret_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x «^» 2 = 1.0 }" => "`^` is not a power in Rust; write `x.powi(2)`";
     double_star_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x * «*»2.0 = 1.0 }" => "`**` is not a power in Rust";

@@ -209,7 +209,7 @@ pub(super) fn turning(e: &[Id], own: bool, g: &mut Graph) -> Value {
 }
 
 /// What of a body is no coordinate.
-const FIELDS: [&str; 4] = ["centre", "omega", "spin", "axes"];
+pub(super) const FIELDS: [&str; 4] = ["centre", "omega", "spin", "axes"];
 
 impl<'m> Lowering<'m> {
     /// Enters the bodies of the declaration, in the order of their members.

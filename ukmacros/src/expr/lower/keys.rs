@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::array::describe;
+use super::bodies::FIELDS;
 use crate::diag::suggest;
 use crate::model::{Family, Field, Name, Scope, block, indexed};
 use crate::parse::{Expr, ExprKind, Key};
@@ -177,7 +178,7 @@ impl<'m> Lowering<'m> {
             }
             None if body.is_some_and(|names| names.contains(&text.as_str())) => {
                 let message = format!(
-                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint{}; what acts on it goes under `forces`",
+                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint{}; what acts on it goes under `forces` or `nonideal`",
                     self.carrying(&name)
                 );
                 self.diag.error(field.span(), message);
@@ -187,6 +188,9 @@ impl<'m> Lowering<'m> {
                 let names = body.into_iter().flatten().copied();
                 let names = names.chain(fields.into_iter().flat_map(|f| f.keys().copied()));
                 let remedy = match body {
+                    Some(_) if FIELDS.contains(&text.as_str()) => format!(
+                        "what acts on it is written `force({name}.at(p), F)` or `torque({name}, M)`, under `forces` or `nonideal`"
+                    ),
                     Some(names) => format!("they are `{}`", names.join("`, `")),
                     None => self.its_coordinates(&name),
                 };

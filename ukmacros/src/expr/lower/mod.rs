@@ -30,7 +30,7 @@ pub(crate) use vectors::vocabulary;
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{LOADS, Model, Scope, uses};
-use crate::parse::{Block, Declaration, Entry, Expr, Function, MassEntry};
+use crate::parse::{Applied, Block, Declaration, Entry, Expr, Function, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
 use constraints::Names;
@@ -223,17 +223,19 @@ impl<'m> Lowering<'m> {
         }
         let potential =
             (decl.potential.is_some() || !terms.is_empty()).then(|| self.graph.sum(&terms));
-        let mut force = self.entries(&decl.force, &top, Place::Force);
+        let mut force = BTreeMap::new();
+        top.unroll(&decl.force, self.diag, &mut |entry, scope| {
+            self.entry(entry, &Env::new(scope, Place::Force), &mut force);
+        });
         for (i, values) in acting.force {
-            let before = force.get(&i).copied().into_iter();
-            let values: Vec<Id> = before.chain(values).collect();
-            force.insert(i, self.total_of(&values));
+            force.entry(i).or_default().extend(values);
         }
+        let force = self.totals(force);
         // Behind the constraints if it may use their reactions.
         let late = LOADS.iter().any(|name| uses(decl, name));
         let forces = |lowering: &mut Self| {
             let section = decl.nonideal.as_ref();
-            section.map(|s| lowering.entries(&s.blocks, &top, Place::Nonideal))
+            section.map(|s| lowering.applied(&s.blocks, &top))
         };
         let early = (!late).then(|| forces(self));
         self.constraints = of_bodies.units;
@@ -433,37 +435,47 @@ impl<'m> Lowering<'m> {
         value.entries().to_vec()
     }
 
-    fn entries(
-        &mut self,
-        blocks: &[Block<Entry>],
-        top: &Scope<'m>,
-        place: Place,
-    ) -> BTreeMap<usize, Id> {
-        let mut out: BTreeMap<usize, Vec<Id>> = BTreeMap::new();
-        top.unroll(blocks, self.diag, &mut |entry, scope| {
-            let coordinates = self.coordinates(&entry.key, scope);
-            let value = self.value(&entry.value, &Env::new(scope, place));
-            let Some((positions, shape)) = coordinates else {
-                return;
-            };
-            if let (Value::Scalar(id), [_, ..]) = (&value, shape)
-                && !self.graph.is_zero(*id)
-            {
-                let message = self.choose_a_member(&entry.key, shape);
-                self.diag.error(entry.key.loc, message);
-                return;
-            }
-            for (i, id) in positions
-                .iter()
-                .zip(self.fitting(&value, shape, &entry.value))
-            {
-                let force = Measured::of(Dimension::ENERGY).per(self.of_coordinate(*i));
-                let loc = entry.value.loc;
-                self.expect(id, force, "the force on this coordinate", loc);
-                out.entry(*i).or_default().push(id);
+    /// c, by coordinate.
+    fn applied(&mut self, blocks: &[Block<Applied>], top: &Scope<'m>) -> BTreeMap<usize, Id> {
+        let mut out = Acting::default();
+        top.unroll(blocks, self.diag, &mut |applied, scope| {
+            let env = Env::new(scope, Place::Nonideal);
+            match applied {
+                Applied::To(entry) => self.entry(entry, &env, &mut out.force),
+                Applied::By(e) => self.acts(e, &env, &mut out),
             }
         });
-        let out = out.into_iter();
-        out.map(|(i, values)| (i, self.total_of(&values))).collect()
+        self.totals(out.force)
+    }
+
+    /// What the forces on each coordinate add up to.
+    fn totals(&mut self, forces: BTreeMap<usize, Vec<Id>>) -> BTreeMap<usize, Id> {
+        let forces = forces.into_iter();
+        forces
+            .map(|(i, values)| (i, self.total_of(&values)))
+            .collect()
+    }
+
+    /// Enters what is said of one coordinate, or of a vector of them.
+    fn entry(&mut self, entry: &Entry, env: &Env<'m>, force: &mut BTreeMap<usize, Vec<Id>>) {
+        let coordinates = self.coordinates(&entry.key, &env.scope);
+        let value = self.value(&entry.value, env);
+        let Some((positions, shape)) = coordinates else {
+            return;
+        };
+        if let (Value::Scalar(id), [_, ..]) = (&value, shape)
+            && !self.graph.is_zero(*id)
+        {
+            let message = self.choose_a_member(&entry.key, shape);
+            self.diag.error(entry.key.loc, message);
+            return;
+        }
+        let values = self.fitting(&value, shape, &entry.value);
+        for (i, id) in positions.iter().zip(values) {
+            let measured = Measured::of(Dimension::ENERGY).per(self.of_coordinate(*i));
+            let loc = entry.value.loc;
+            self.expect(id, measured, "the force on this coordinate", loc);
+            force.entry(*i).or_default().push(id);
+        }
     }
 }

@@ -259,7 +259,7 @@ impl<'m> Lowering<'m> {
                 self.error(
                     e.loc,
                     format!(
-                        "what acts is written as one of {}; generalised forces go under `force`",
+                        "what acts is written as one of {}; generalised forces are written `coordinate: value`, under `force` or `nonideal`",
                         acting()
                     ),
                 );
@@ -289,6 +289,12 @@ impl<'m> Lowering<'m> {
             Meaning::Rows(..) => {
                 let message =
                     format!("`{name}` is a joint; it stands under `holonomic`: `name: {name}(…)`");
+                self.error(name.span(), message);
+            }
+            Meaning::Energy(_) if env.place == Place::Nonideal => {
+                let message = format!(
+                    "a `{name}` has a potential, which no constraint force has; it stands under `forces`"
+                );
                 self.error(name.span(), message);
             }
             Meaning::Energy(text) => {
