@@ -83,7 +83,16 @@ pub(super) struct Level {
 struct Place {
     residual: Vec<f64>,
     rows: Vec<Vec<(usize, f64)>>,
-    /// Σ residual².
+    /// How far it is from the constraints.
+    off: Off,
+}
+
+/// How far a place is from the constraints, the worse the larger.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+struct Off {
+    /// Rows that are no numbers, or zeros: where a quaternion is not of unit length yet, say. They are left to others until they are.
+    undefined: usize,
+    /// Σ residual² of the others.
     size: f64,
 }
 
@@ -115,17 +124,25 @@ impl Level {
         let mut place = Place {
             residual: residual.to_vec(),
             rows: vec![Vec::new(); self.rows],
-            size: 0.0,
+            off: Off {
+                undefined: 0,
+                size: 0.0,
+            },
         };
         for ((row, column), a) in self.entries.iter().zip(entries) {
             place.rows[*row].push((*column, *a));
         }
         for (row, r) in place.rows.iter_mut().zip(&mut place.residual) {
             let length = row.iter().map(|(_, a)| a * a).sum::<f64>().sqrt();
-            // A row of zeros, or not of numbers, is met nowhere.
             *r /= length;
+            if !r.is_finite() {
+                place.off.undefined += 1;
+                *r = 0.0;
+                row.clear();
+                continue;
+            }
             row.iter_mut().for_each(|(_, a)| *a /= length);
-            place.size += *r * *r;
+            place.off.size += *r * *r;
         }
         place
     }
@@ -143,7 +160,7 @@ impl Level {
         for _ in 0..STEPS {
             let x = if position { &mut probe.q } else { &mut probe.v };
             let scale = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-            if here.size.sqrt() <= MET * scale {
+            if here.off.undefined == 0 && here.off.size.sqrt() <= MET * scale {
                 return Some(here);
             }
             let (step, work) = here.step(damping, x.len());
@@ -151,8 +168,8 @@ impl Level {
             let before = x.clone();
             x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
             let there = self.evaluate(probe, g);
-            if there.size < here.size {
-                damping = (0.1 * damping).min(there.size / (scale * scale));
+            if there.off < here.off {
+                damping = (0.1 * damping).min(there.off.size / (scale * scale));
                 damping = damping.max(DAMPING);
                 here = there;
             } else {
