@@ -5,6 +5,7 @@ mod bennett;
 mod mechanisms;
 mod mill;
 mod sarrus;
+mod sleigh;
 
 use mechanisms::SpatialFourBar;
 use models::{DoubleScottRussell, Model};

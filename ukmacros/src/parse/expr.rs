@@ -339,7 +339,7 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             },
             other => refuse(
                 location(other),
-                "only a function's name can be called, such as `sin(x)`",
+                "only a function's name can be called, such as `sin(x)`; an entry that begins with a parenthesis needs a `,` before it",
             ),
         },
         syn::Expr::MethodCall(m) => {

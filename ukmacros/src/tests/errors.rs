@@ -224,7 +224,7 @@ cases! {
     comparison: "coords { x } mass { x: 1.0 } force { x: x «<» 2.0 }" => "no comparisons";
     not: "coords { x } mass { x: 1.0 } force { x: «!x» }" => "`!` has no meaning in an equation";
     operator_of_bits: "coords { x } mass { x: 1.0 } force { x: x «&» 2.0 }" => "this operator has no meaning in an equation; use `+ - * /`";
-    call_of_a_number: "coords { x } mass { x: 1.0 } force { x: «(2.0)»(x) }" => "only a function's name can be called, such as `sin(x)`";
+    call_of_a_number: "coords { x } mass { x: 1.0 } force { x: «(2.0)»(x) }" => "only a function's name can be called, such as `sin(x)`; an entry that begins with a parenthesis needs a `,` before it";
     type_argument: "coords { x } mass { x: 1.0 } force { x: x.powi«::<f64>»(2) }" => "a function takes no type arguments here";
     loop_in_an_equation: "coords { x } mass { x: 1.0 } force { x: «loop { }» }" => "not an equation's expression; allowed are numbers, names";
     large_integer: "coords { x } mass { x: 1.0 } force { x: «99999999999999999999» }" => "integer is too large; write it as a float";
