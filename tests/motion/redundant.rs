@@ -2,6 +2,7 @@
 //! against eq. 19 on and off the constraints, and what must not be left out.
 
 mod bennett;
+mod door;
 mod mechanisms;
 mod mill;
 mod sarrus;

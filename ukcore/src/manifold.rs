@@ -210,12 +210,9 @@ impl Projector {
     }
 
     /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
-    /// lets it: far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that
-    /// is unknown, and where no time is in the equations.
+    /// lets it: far from t = 0, far from the origin, or driven fast, that may be farther off than an error that is asked for. Leaves
+    /// `change` alone where that is unknown, and where without time in the equations it is more than rounding that rows beyond doubt amplify.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
-        if self.mechanism.spec().structure.scleronomic {
-            return;
-        }
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
             let at = At::new(&self.mechanism, level, t, other);
@@ -244,6 +241,9 @@ impl Projector {
         self.mechanism.hold(switch, branch);
     }
 }
+
+/// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of it.
+const AMPLIFIED: f64 = 256.0 * f64::EPSILON;
 
 /// What all ways onto the constraints share, for one mechanism.
 #[derive(Debug, Clone)]
@@ -366,7 +366,16 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        newton.rounding(at, x, &mut self.noise, None);
+        if at.mech.spec().structure.scleronomic {
+            newton.weigh(at, x);
+            newton.measure(at, x, &mut self.noise, None);
+            let acceptance = &newton.acceptance;
+            if acceptance.largest(change) > AMPLIFIED * acceptance.length(0..at.rows()) {
+                return;
+            }
+        } else {
+            newton.rounding(at, x, &mut self.noise, None);
+        }
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         let mut factored = false;
         self.factors.cautious = true;
