@@ -159,6 +159,9 @@ fn what_the_hunt_has_found() {
     ] {
         outcomes.case(number, rate, Method::Dop853, tolerance, 10.0);
     }
+    for (number, rate) in [(0, 2.881236), (2, 2.347236), (2, 6.985236)] {
+        outcomes.case(number, rate, Method::Dopri5, 1e-4, 10.0);
+    }
     assert!(
         outcomes.wrong.is_empty() && outcomes.refused == 0,
         "{outcomes:#?}"

@@ -151,6 +151,14 @@ impl Dense {
         }
     }
 
+    /// The same, for accelerations off the constraints: what drift lends to rows that imply each other on them is taken in, so that
+    /// accelerations go on smoothly whichever rows are chosen.
+    pub(crate) fn taking_in(spec: &Spec) -> Self {
+        let mut dense = Dense::new(spec);
+        dense.cod.takes_in = true;
+        dense
+    }
+
     /// Factors M and A, keeping every pivot above `floor`. The rank is then [`Decomposition::rank`] of `cod`; to change it, call
     /// [`Dense::set_rank`], which must be called in any case on the singular route.
     ///

@@ -7,8 +7,9 @@
 //! C⁺ = Q₁ T⁻ᵀ Z₁ᵀ Pᵀ,  (Cᵀ)⁺ = P Z₁ T⁻¹ Q₁ᵀ.
 //!
 //! Where it is what drift off the constraints lends to rows that imply each other on them, \[0 R₂₂\] Z = \[E F\] is of its size: Z₂ are the
-//! dependences up to its square, F, what C has in them, counts as zero, and reflections from the left take E into T. Without that C⁺
-//! would be that of the rows that happened to be chosen, and jump by the drift where others are.
+//! dependences up to its square, F, what C has in them, counts as zero, and reflections from the left take E into T, if that is asked for.
+//! Without it R₂₂ counts as zero: C⁺ is that of the rows that were chosen, which are met whatever the others say, as singular positions are
+//! passed; and it jumps by the drift where others are chosen.
 //!
 //! Rows are interchanged too, the largest entry first: with that the reflections are stable row by row, and coordinates of
 //! very different mass (rows of M^−½Aᵀ of very different size) keep their digits (Cox & Higham 1998).
@@ -44,6 +45,8 @@ pub(crate) struct Decomposition {
     epsilon: Vec<f64>,
     steps: usize,
     rank: usize,
+    /// Whether E is taken in: else the rows of C that were chosen are met, and what the others say beside them is dropped.
+    pub(crate) takes_in: bool,
     work_n: Vec<f64>,
     work_m: Vec<f64>,
 }
@@ -67,6 +70,7 @@ impl Decomposition {
             epsilon: vec![0.0; n.min(m)],
             steps: 0,
             rank: 0,
+            takes_in: false,
             work_n: vec![0.0; n],
             work_m: vec![0.0; m],
         }
@@ -269,9 +273,14 @@ impl Decomposition {
         self.work_m = work;
     }
 
-    /// Whether there is an E.
+    /// How many reflections make up Q: those of R₁₁, and where E counts those of its rows, too.
+    fn reflections(&self) -> usize {
+        if self.drifts() { self.steps } else { self.rank }
+    }
+
+    /// Whether there is an E that counts.
     fn drifts(&self) -> bool {
-        (1..self.steps).contains(&self.rank)
+        self.takes_in && (1..self.steps).contains(&self.rank)
     }
 
     /// Reflection i of those that take E into T on `x` (length n, permuted).
@@ -329,7 +338,7 @@ impl Decomposition {
         if self.drifts() {
             (0..self.rank).rev().for_each(|i| self.reflect_e(i, &mut z));
         }
-        (0..self.steps)
+        (0..self.reflections())
             .rev()
             .for_each(|k| self.reflect_q(k, &mut z));
         for (z, &i) in z.iter().zip(&self.row) {
@@ -359,7 +368,7 @@ impl Decomposition {
         for (z, &i) in z.iter_mut().zip(&self.row) {
             *z = x[i];
         }
-        (0..self.steps).for_each(|k| self.reflect_q(k, &mut z));
+        (0..self.reflections()).for_each(|k| self.reflect_q(k, &mut z));
         if self.drifts() {
             (0..r).for_each(|i| self.reflect_e(i, &mut z));
         }
@@ -541,6 +550,7 @@ mod tests {
             let c = implied + DMatrix::from_fn(m, n, |_, _| drift * next());
             let mut d = Decomposition::new(m, n);
             d.load(m).copy_from_slice(c.transpose().as_slice());
+            d.takes_in = true;
             d.factor(&vec![1.0; n], &vec![1.0; m], 1e-11);
             assert_eq!(d.rank(), m.min(n));
             d.set_rank(rank);

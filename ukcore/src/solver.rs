@@ -138,7 +138,7 @@ impl Solver {
             force: vec![0.0; n],
             position: vec![0.0; spec.holonomic],
             rate: vec![0.0; m],
-            dense: Dense::new(spec),
+            dense: Dense::taking_in(spec),
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
