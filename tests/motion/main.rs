@@ -7,6 +7,7 @@ mod cells;
 mod crossings;
 mod failures;
 mod fallback;
+mod far;
 mod friction;
 mod integrals;
 mod kinks;

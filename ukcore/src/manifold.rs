@@ -364,9 +364,14 @@ impl Manifold {
 
     /// See [`Projector::excess`], of one level.
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
+        let still = at.mech.spec().structure.scleronomic;
+        // Towards a singular position rounding may lead into another branch.
+        if at.rows() == 0 || still && !self.is_clear(at, x) {
+            return;
+        }
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        if at.mech.spec().structure.scleronomic {
+        if still {
             newton.weigh(at, x);
             newton.measure(at, x, &mut self.noise, None);
             let acceptance = &newton.acceptance;
@@ -379,7 +384,7 @@ impl Manifold {
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         let mut factored = false;
         self.factors.cautious = true;
-        if at.rows() == 0 || (self.factors.step(at, x, newton, &mut factored)).is_err() {
+        if (self.factors.step(at, x, newton, &mut factored)).is_err() {
             return;
         }
         // The projection may have taken in rows in doubt, which are left out here.

@@ -11,6 +11,9 @@ use crate::pinv::axpy;
 use crate::scan::all_finite;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 
+/// Rows that keep this share of themselves are far from depending on the others.
+const CLEAR: f64 = 4.0 * RANK_CEILING;
+
 /// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
 
@@ -180,6 +183,14 @@ impl Manifold {
         (self.factors.place, self.factors.cautious) = (None, true);
         self.factors.factor(at, x, &mut self.newton, true)?;
         Ok(self.factors.doubts())
+    }
+
+    /// Whether no constraint comes near to depending on the others at `x`, but for those that do.
+    pub(super) fn is_clear(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
+        self.doubts(at, x).is_ok_and(|doubts| {
+            let pivots = self.factors.dense.cod.pivots();
+            !doubts && leading(pivots, CLEAR) == pivots.len()
+        })
     }
 
     /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.
