@@ -44,6 +44,25 @@ fn what_does_not_decide_a_motion_is_refused() {
         ask(&at(1.0), &[("ram.x", 0.3..f64::NAN)], &[]),
         "not a finite number: range of ram.x",
     );
+    ukcore::multibody! {
+        /// The crank of a slider that a motor turns.
+        pub Turned {
+            coords { a [rad], x [m] }
+            mass { a: 1.0, x: 1.0 }
+            params { r = 0.1 [m], l = 0.3 [m] }
+            holonomic {
+                rod: sq(x - r * cos(a)) + sq(r * sin(a)) = sq(l)
+                motor: a = 0.3 + 2 [rad/s] * t
+            }
+        }
+    }
+    let start = State::guess::<Turned>(&[("a", 0.3), ("x", 0.4)]).unwrap();
+    for drive in [("a", 0.3..1.0), ("x", 0.39..0.3)] {
+        refused(
+            kinematics(Turned::default(), &start, &[drive], &[], 10),
+            "do not agree: `motor` prescribes the motion by the time; drive `t`, or leave it out of the mechanism",
+        );
+    }
     let arm = Arm::default().prepared();
     let start = ukcore::assemble(
         &arm,
