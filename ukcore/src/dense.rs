@@ -13,8 +13,8 @@
 use crate::measure::Measure;
 use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
-use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::{largest, or_one};
+use crate::pinv::Decomposition;
+use crate::scan::{axpy, dot, largest, or_one};
 use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis

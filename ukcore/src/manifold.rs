@@ -16,7 +16,7 @@ use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
-use crate::solver::Baumgarte;
+use crate::solver::{Baumgarte, CLEAR, RANK_CEILING};
 
 mod acceptance;
 mod level;
@@ -183,7 +183,7 @@ impl Projector {
         let corrections = [self.position(t, q, v)?, self.velocity(t, q, v)?];
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
         let changed = corrections[1].norm > 0.0 && too_much(&self.manifold.start, v);
-        if changed && self.manifold.doubts(&at, v)? {
+        if changed && !self.manifold.keep(&at, v, RANK_CEILING)? {
             again(y);
             let (q, v) = y.split_at_mut(n);
             self.position(t, q, v)?;
@@ -366,7 +366,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let still = at.mech.spec().structure.scleronomic;
         // Towards a singular position rounding may lead into another branch.
-        if at.rows() == 0 || still && !self.is_clear(at, x) {
+        if at.rows() == 0 || still && !self.keep(at, x, CLEAR).is_ok_and(|clear| clear) {
             return;
         }
         let newton = &mut self.newton;

@@ -1,7 +1,6 @@
 //! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
 
-use crate::pinv::{axpy, dot};
-use crate::scan::or_one;
+use crate::scan::{axpy, dot, or_one};
 
 /// A pivot d_k of the Cholesky factorisation counts as zero below this multiple of n ε M_kk.
 ///

@@ -16,8 +16,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::scalar::Scalar;
-use crate::scan::{largest, reduce};
+use crate::scan::{axpy, dot, largest, largest_product};
 
 /// An earlier column is taken as pivot if its significance is at least this share of the largest: the declared order is kept
 /// where it costs nothing, and of two equal constraints the later one is called redundant. One half at most doubles the growth
@@ -411,31 +410,6 @@ fn householder(x: &mut [f64]) -> (f64, f64) {
     let inverse = (alpha - beta).recip();
     x[1..].iter_mut().for_each(|x| *x *= inverse);
     (beta, (beta - alpha) / beta)
-}
-
-/// Σ aᵢ bᵢ, in four sums at a time, which the processor adds in parallel.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let n = a.len().min(b.len());
-    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
-    let rest = a.remainder().iter().zip(b.remainder());
-    let rest: f64 = rest.map(|(a, b)| a * b).sum();
-    let mut sums = [0.0; 4];
-    for (a, b) in a.zip(b) {
-        for ((s, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *s += a * b;
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
-/// max |aᵢ| bᵢ.
-fn largest_product(a: &[f64], b: &[f64]) -> f64 {
-    reduce(a, b, |a, b| a.abs() * b, |s, x| x.larger(s))
-}
-
-/// y ← y + s x.
-pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
-    y.iter_mut().zip(x).for_each(|(y, x)| *y += s * x);
 }
 
 /// C⁺ and the rank of C. Rows of which no entry exceeds `tolerance` times the largest entry of C, once what the other rows imply

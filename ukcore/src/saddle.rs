@@ -2,7 +2,7 @@
 
 use crate::dense::Rows;
 use crate::lu::Lu;
-use crate::pinv::axpy;
+use crate::scan::axpy;
 
 /// A pivot of the scaled system (entries of order 1) below this is none: with n + m unknowns elimination loses a few digits, and
 /// half of the digits must remain (√ε).

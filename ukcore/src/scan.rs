@@ -94,6 +94,31 @@ pub(crate) fn excess_by<S: Scalar>(d: &[S], x: &[S], share: S, least: S, units: 
     beyond.fold(S::from_f64(0.0), |s, x| x.larger(s))
 }
 
+/// Σ aᵢ bᵢ, in four sums at a time, which the processor adds in parallel.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len().min(b.len());
+    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
+    let rest = a.remainder().iter().zip(b.remainder());
+    let rest: f64 = rest.map(|(a, b)| a * b).sum();
+    let mut sums = [0.0; 4];
+    for (a, b) in a.zip(b) {
+        for ((s, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *s += a * b;
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// max |aᵢ| bᵢ.
+pub(crate) fn largest_product(a: &[f64], b: &[f64]) -> f64 {
+    reduce(a, b, |a, b| a.abs() * b, |s, x| x.larger(s))
+}
+
+/// y ← y + s x.
+pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += s * x);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -24,9 +24,8 @@ use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
 use crate::noise::Noise;
-use crate::pinv::axpy;
 use crate::saddle::Saddle;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, axpy};
 use crate::spec::Spec;
 
 mod agreement;
@@ -53,6 +52,9 @@ pub const RANK_TOLERANCE: f64 = 2e-11;
 /// manifold to be called a state of this mechanism; and mechanisms away from singular configurations never pay for the drift
 /// estimate.
 pub const RANK_CEILING: f64 = 1.0 / 32.0;
+
+/// Rows that keep this share of themselves are not implied by others at any place near by.
+pub(crate) const CLEAR: f64 = 4.0 * RANK_CEILING;
 
 /// Factor on the measured drift of A and b: pivoted elimination can enlarge a perturbation of the rows (in practice by less than
 /// ten), and one Newton correction measures the drift to first order.

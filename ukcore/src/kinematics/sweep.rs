@@ -328,33 +328,25 @@ impl<'a> Sweep<'a> {
             .map(|row| (spec.constraints[row].name.to_owned(), row))
     }
 
-    /// Those of them that move with the time.
-    fn prescribing(&self, state: &State, rows: &Rows) -> Vec<String> {
-        let spec = self.mech.spec();
-        let (rest, mut rates) = (vec![0.0; spec.n()], vec![0.0; spec.m()]);
-        self.mech
-            .residual_rate(state.t, &state.q, &rest, &mut rates);
-        let moving = self.holding(rows).filter(|(_, row)| rates[*row] != 0.0);
-        moving.map(|(name, _)| name).collect()
-    }
-
     /// Why drives and held coordinates do not leave one way to go at `state`.
     fn miscounted(&self, curve: &Curve<'_>, state: &State, rows: &Rows) -> Error {
         let spec = self.mech.spec();
         let free = rows.free();
         if free.nrows() == 0 {
-            let prescribing = self.prescribing(state, rows);
-            let remedy = match prescribing.len() {
-                0 => "let one of them go".to_owned(),
-                count => format!(
-                    "{} {} the motion by the time; drive `t`, or leave {} out of the mechanism",
-                    quoted(&prescribing),
-                    if count == 1 {
-                        "prescribes"
-                    } else {
-                        "prescribe"
-                    },
-                    if count == 1 { "it" } else { "them" },
+            let motors = self.mech.motors(state, [state.t]);
+            let holding = self.holding(rows).map(|(name, _)| name);
+            let by: Vec<String> = holding
+                .filter(|name| motors.contains(&name.as_str()))
+                .collect();
+            let (prescribe, them) = match by.len() {
+                1 => ("prescribes", "it"),
+                _ => ("prescribe", "them"),
+            };
+            let remedy = match by.is_empty() {
+                true => "let one of them go".to_owned(),
+                false => format!(
+                    "{} {prescribe} the motion by the time; drive `t`, or leave {them} out of the mechanism",
+                    quoted(&by)
                 ),
             };
             let reason = format!(

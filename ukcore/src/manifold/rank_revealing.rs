@@ -7,12 +7,8 @@ use crate::dense::{Dense, Rows};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::pinv::axpy;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, axpy};
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
-
-/// Rows that keep this share of themselves are far from depending on the others.
-const CLEAR: f64 = 4.0 * RANK_CEILING;
 
 /// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
@@ -174,23 +170,16 @@ impl Factors {
 }
 
 impl Manifold {
-    /// Whether a constraint all but depends on the others at `x`.
-    pub(super) fn doubts(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
+    /// Whether each constraint keeps more than this `share` of itself at `x`, once what the others imply is taken off.
+    pub(super) fn keep(&mut self, at: &At<'_, f64>, x: &[f64], share: f64) -> Result<bool, Error> {
         if at.rows() == 0 {
-            return Ok(false);
+            return Ok(true);
         }
         at.jacobian(x, &mut self.newton.jacobian);
         (self.factors.place, self.factors.cautious) = (None, true);
         self.factors.factor(at, x, &mut self.newton, true)?;
-        Ok(self.factors.doubts())
-    }
-
-    /// Whether no constraint comes near to depending on the others at `x`, but for those that do.
-    pub(super) fn is_clear(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
-        self.doubts(at, x).is_ok_and(|doubts| {
-            let pivots = self.factors.dense.cod.pivots();
-            !doubts && leading(pivots, CLEAR) == pivots.len()
-        })
+        let pivots = self.factors.dense.cod.pivots();
+        Ok(leading(pivots, share) == pivots.len())
     }
 
     /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.

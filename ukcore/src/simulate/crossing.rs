@@ -13,9 +13,9 @@ use crate::integrate::sample::Sample;
 use crate::measure::Measure;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
-use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::largest;
-use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
+use crate::pinv::Decomposition;
+use crate::scan::{axpy, dot, largest};
+use crate::solver::{CLEAR, RANK_CEILING, RANK_TOLERANCE, leading};
 
 /// Roundings of f up to which e counts as zero, and above which it does not.
 const ZERO: f64 = 8.0;
@@ -26,9 +26,6 @@ const TOGETHER: f64 = 2.0;
 
 /// Guesses at most of how many rows go singular.
 const TRIES: usize = 4;
-
-/// Rows that keep this share of themselves are not implied by others at any place near by.
-pub(super) const CLEAR: f64 = 4.0 * RANK_CEILING;
 
 /// Significance of a row beside a reversed combination below which steps are short enough to tell what becomes of the motion.
 const UNTOLD: f64 = 1e-5;

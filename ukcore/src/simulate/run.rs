@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::crossing::{self, CLEAR};
+use super::crossing;
 use super::energy::EnergyWatch;
 use super::obstacles;
 use super::record::Recorder;
@@ -14,7 +14,7 @@ use crate::integrate::{Method, Next, Outcome, Problem, Purpose, Settings, Singul
 use crate::linearise::Columns;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
-use crate::solver::{RANK_CEILING, Solver};
+use crate::solver::{CLEAR, RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
 
 /// What is called after each accepted step.

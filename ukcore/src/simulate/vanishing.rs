@@ -16,7 +16,7 @@ use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
-use crate::pinv::dot;
+use crate::scan::dot;
 use crate::zero::locate;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after

@@ -13,8 +13,7 @@
 
 use super::{Formula, RANK_CEILING, Solver};
 use crate::mechanism::Evaluated;
-use crate::pinv::axpy;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, axpy};
 
 /// Refinements tried; each has to gain a digit.
 const STEPS: usize = 5;

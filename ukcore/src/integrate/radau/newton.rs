@@ -7,7 +7,7 @@ use crate::integrate::course::Trial;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Cause;
 use crate::lu::Lu;
-use crate::pinv::axpy;
+use crate::scan::axpy;
 
 /// Most iterations.
 pub(super) const MOST: usize = 7;
