@@ -12,9 +12,9 @@
 
 use crate::measure::Measure;
 use crate::mechanism::Evaluated;
-use crate::metric::{MassFault, Metric, pivoted_cholesky};
+use crate::metric::{MassFault, Metric, divide, divide_transposed, pivoted_cholesky};
 use crate::pinv::Decomposition;
-use crate::scan::{axpy, dot, largest, or_one};
+use crate::scan::{axpy, dot, largest, or_one, place_of_largest};
 use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
@@ -119,11 +119,6 @@ pub(crate) struct Dense {
 }
 
 impl Dense {
-    /// What makes the residuals of the rows comparable. A row of zeros has no scale: 0 = b.
-    pub(crate) fn residual_scale(&self) -> Vec<f64> {
-        self.row_scale.iter().copied().map(or_one).collect()
-    }
-
     /// Buffers for the mechanisms of a type.
     pub(crate) fn new(spec: &Spec) -> Self {
         let (n, m) = (spec.n(), spec.m());
@@ -195,17 +190,10 @@ impl Dense {
                 (self.row_scale[c], self.significance[c]) = (size.recip(), 1.0);
                 continue;
             }
-            // In two steps, so that rows of any magnitude have a norm.
-            let largest = largest(column);
-            self.row_scale[c] = 0.0;
-            self.significance[c] = 0.0;
-            if largest > 0.0 {
-                column.iter_mut().for_each(|x| *x /= largest);
-                let norm = dot(column, column).sqrt();
-                column.iter_mut().for_each(|x| *x /= norm);
-                self.row_scale[c] = (largest * norm).recip();
-                self.significance[c] = largest * norm / own;
-            }
+            (self.row_scale[c], self.significance[c]) = match normalise(column) {
+                0.0 => (0.0, 0.0),
+                norm => (norm.recip(), norm / own),
+            };
         }
         let pairs = self.metric.root.iter().zip(&self.measure.scale);
         let weights = self.weights.iter_mut().zip(pairs);
@@ -263,7 +251,7 @@ impl Dense {
         let rank = pivoted_cholesky(&mut self.inertia, order, floor);
         self.inertia_rank = rank.map_err(|lowest| {
             let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
-            MassFault::Indefinite(position_of_largest(column))
+            MassFault::Indefinite(place_of_largest(column))
         })?;
         Ok(())
     }
@@ -286,10 +274,7 @@ impl Dense {
         for j in k..d {
             // Null vector: 1 at j, and L₁₁ᵀ y = −(row j of L) above.
             let mut y: Vec<f64> = (0..k).map(|i| -self.inertia[i * d + j]).collect();
-            for i in (0..k).rev() {
-                let below = &self.inertia[i * d + i + 1..i * d + k];
-                y[i] = (y[i] - dot(below, &y[i + 1..])) / self.inertia[i * d + i];
-            }
+            divide_transposed(&self.inertia, d, &mut y);
             y.push(1.0);
             let mut direction = vec![0.0; n];
             let order = self.inertia_order[..k].iter();
@@ -401,25 +386,13 @@ impl Dense {
             }
             None => self.work.iter_mut().for_each(|x| *x = -*x),
         }
-        let z = &mut self.reduced;
-        for (i, z) in z[..k].iter_mut().enumerate() {
-            let o = self.inertia_order[i];
+        let z = &mut self.reduced[..k];
+        for (z, &o) in z.iter_mut().zip(&self.inertia_order) {
             *z = dot(&self.basis[o * n..(o + 1) * n], &self.work);
         }
-        for i in 0..k {
-            z[i] /= self.inertia[i * d + i];
-            let s = z[i];
-            axpy(
-                -s,
-                &self.inertia[i * d + i + 1..i * d + k],
-                &mut z[i + 1..k],
-            );
-        }
-        for i in (0..k).rev() {
-            let s = dot(&self.inertia[i * d + i + 1..i * d + k], &z[i + 1..k]);
-            z[i] = (z[i] - s) / self.inertia[i * d + i];
-        }
-        for (z, &o) in z[..k].iter().zip(&self.inertia_order) {
+        divide(&self.inertia, d, z);
+        divide_transposed(&self.inertia, d, z);
+        for (z, &o) in z.iter().zip(&self.inertia_order) {
             axpy(*z, &self.basis[o * n..(o + 1) * n], out);
         }
         self.metric.divide(out);
@@ -486,13 +459,16 @@ impl Dense {
     }
 }
 
-fn normalise(x: &mut [f64]) {
+/// Divides x by its norm, which it returns, unless that is 0; in two steps, so that numbers of any magnitude have one.
+fn normalise(x: &mut [f64]) -> f64 {
     let largest = largest(x);
-    if largest > 0.0 {
-        x.iter_mut().for_each(|x| *x /= largest);
-        let norm = dot(x, x).sqrt();
-        x.iter_mut().for_each(|x| *x /= norm);
+    if largest == 0.0 {
+        return 0.0;
     }
+    x.iter_mut().for_each(|x| *x /= largest);
+    let norm = dot(x, x).sqrt();
+    x.iter_mut().for_each(|x| *x /= norm);
+    largest * norm
 }
 
 /// y = M̂ x = L⁻¹ M L⁻¹ x for a diagonal L.
@@ -505,8 +481,4 @@ fn weigh(mass: &[f64], metric: &Metric, x: &[f64], y: &mut [f64]) {
         }
     }
     metric.divide(y);
-}
-
-fn position_of_largest(x: &[f64]) -> usize {
-    (0..x.len()).fold(0, |b, i| if x[i].abs() > x[b].abs() { i } else { b })
 }

@@ -408,14 +408,14 @@ impl Manifold {
         if !all_finite(residual) {
             return at.non_finite(x, residual);
         }
-        let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
+        let mut violations = vec![0.0; residual.len()];
         for c in self.newton.violated(at) {
             violations[c] = residual[c];
-            scale[c] = self.newton.acceptance.scale(c).recip();
         }
+        let scale = |c: usize| self.newton.acceptance.scale(c).recip();
         Error::OffConstraint {
             level: at.level.name(),
-            constraints: diagnose::offending(at.mech.spec(), &violations, &scale),
+            constraints: diagnose::offending(at.mech.spec(), &violations, scale),
         }
     }
 

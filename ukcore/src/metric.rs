@@ -105,17 +105,8 @@ impl Metric {
     fn classify(&mut self, mass: &[f64]) -> Result<(), MassFault> {
         let n = self.n;
         let floor = PIVOT_ROUNDING * n as f64 * f64::EPSILON;
-        let mut zero = None;
-        for i in 0..n {
-            let own = mass[i * n + i];
-            if own < 0.0 || (own == 0.0 && coupled(mass, n, i)) {
-                return Err(MassFault::Indefinite(i));
-            }
-            if own == 0.0 {
-                zero = Some(i);
-            }
-        }
-        if let Some(i) = zero {
+        possible(mass, n)?;
+        if let Some(i) = (0..n).rfind(|i| mass[i * n + i] == 0.0) {
             return Err(MassFault::Singular(i));
         }
         for j in 0..n {
@@ -150,13 +141,9 @@ impl Metric {
     ) -> Result<(), MassFault> {
         let n = self.n;
         self.kind = Kind::Scales;
-        for i in 0..n {
-            let own = mass[i * n + i];
-            if own < 0.0 || (own == 0.0 && coupled(mass, n, i)) {
-                return Err(MassFault::Indefinite(i));
-            }
-            self.root[i] = own.sqrt();
-        }
+        possible(mass, n)?;
+        let diagonal = self.root.iter_mut().zip(mass.iter().step_by(n + 1));
+        diagonal.for_each(|(root, own)| *root = own.sqrt());
         for c in regular.filter(|c| *c < rows) {
             let row = || jacobian.iter().skip(c).step_by(stride);
             let (mut length, mut root) = (0.0_f64, 0.0_f64);
@@ -200,12 +187,7 @@ impl Metric {
     /// x ← L⁻¹ x.
     pub(crate) fn divide(&self, x: &mut [f64]) {
         if self.kind == Kind::Full {
-            let n = self.n;
-            for i in 0..n {
-                x[i] /= self.root[i];
-                let s = x[i];
-                axpy(-s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
-            }
+            divide(&self.l, self.n, x);
         } else {
             x.iter_mut().zip(&self.root).for_each(|(x, l)| *x /= l);
         }
@@ -214,11 +196,7 @@ impl Metric {
     /// x ← L⁻ᵀ x.
     pub(crate) fn divide_transposed(&self, x: &mut [f64]) {
         if self.kind == Kind::Full {
-            let n = self.n;
-            for i in (0..n).rev() {
-                let s = dot(&self.l[i * n + i + 1..(i + 1) * n], &x[i + 1..]);
-                x[i] = (x[i] - s) / self.root[i];
-            }
+            divide_transposed(&self.l, self.n, x);
         } else {
             self.divide(x);
         }
@@ -287,13 +265,35 @@ pub(crate) fn pivoted_cholesky(
     Ok(d)
 }
 
-/// Whether coordinate i, without inertia of its own, is coupled to the inertia of another by more than rounding or underflow
-/// explains (|M_ij| against M_jj), which no positive semidefinite M allows.
-fn coupled(mass: &[f64], n: usize, i: usize) -> bool {
-    (0..n).filter(|j| *j != i).any(|j| {
-        let entry = mass[j * n + i].abs().max(mass[i * n + j].abs());
-        entry > f64::EPSILON * mass[j * n + j].abs()
-    })
+/// x ← L⁻¹ x, with the first rows and columns of a lower triangular L, whose columns are `stride` apart.
+pub(crate) fn divide(l: &[f64], stride: usize, x: &mut [f64]) {
+    for i in 0..x.len() {
+        let column = &l[i * stride..i * stride + x.len()];
+        x[i] /= column[i];
+        axpy(-x[i], &column[i + 1..], &mut x[i + 1..]);
+    }
+}
+
+/// x ← L⁻ᵀ x.
+pub(crate) fn divide_transposed(l: &[f64], stride: usize, x: &mut [f64]) {
+    for i in (0..x.len()).rev() {
+        let column = &l[i * stride..i * stride + x.len()];
+        x[i] = (x[i] - dot(&column[i + 1..], &x[i + 1..])) / column[i];
+    }
+}
+
+/// An error where a coordinate has a negative inertia, or, without one of its own, is coupled to that of another by more than rounding or
+/// underflow explains (|M_ij| against M_jj), which no positive semidefinite M allows.
+fn possible(mass: &[f64], n: usize) -> Result<(), MassFault> {
+    let coupled = |i: usize| {
+        (0..n).filter(|j| *j != i).any(|j| {
+            let entry = mass[j * n + i].abs().max(mass[i * n + j].abs());
+            entry > f64::EPSILON * mass[j * n + j].abs()
+        })
+    };
+    let own = |i: usize| mass[i * n + i];
+    let fault = (0..n).find(|i| own(*i) < 0.0 || own(*i) == 0.0 && coupled(*i));
+    fault.map_or(Ok(()), |i| Err(MassFault::Indefinite(i)))
 }
 
 #[cfg(test)]

@@ -112,7 +112,7 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     if jumps.iter().any(|r| *r != 0.0) {
         return Some(Error::Jump {
             level: if position { "position" } else { "velocity" },
-            constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
+            constraints: diagnose::offending(spec, &jumps, |_| 1.0),
         });
     }
     let (q, v) = (&near_q[..], &near_v[..]);
@@ -126,7 +126,7 @@ pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
     let spec = mechanism.spec();
     let mut residual = vec![0.0; spec.holonomic];
     mechanism.residual(at.t, at.q, &mut residual);
-    let ended = diagnose::offending(spec, &residual, &vec![1.0; spec.holonomic]);
+    let ended = diagnose::offending(spec, &residual, |_| 1.0);
     let constraints: Vec<String> = ended.into_iter().map(|(name, _)| name).collect();
     (!constraints.is_empty()).then_some(Error::Singular { constraints })
 }
@@ -144,18 +144,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         row, near, reached, ..
     } = &found;
     let spec = mech.spec();
-    let lost = crossing::Vanishing {
-        row: *row,
-        size: found.size,
-        scale: &found.scale,
-    };
-    if !crossing::counts(mech, near, lost) {
+    if !crossing::counts(mech, &found) {
         return None;
     }
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
-        if let Some(position) = crossing::find(mech, near, Some(lost)) {
+        if let Some(position) = crossing::find(mech, near, Some(&found)) {
             return Some(Singular {
                 significance: *reached,
                 ..position
@@ -165,8 +160,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
         let mut jacobian = vec![0.0; near.q.len() * spec.m()];
         mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
-        let rows = Rows::all(&jacobian, spec.m());
-        if rows.largest(*row, &found.scale) <= RANK_CEILING * found.size {
+        if found.size_in(Rows::all(&jacobian, spec.m())) <= RANK_CEILING {
             return None;
         }
     }

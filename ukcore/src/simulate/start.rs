@@ -170,9 +170,6 @@ fn near([before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bo
 }
 
 fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
-    let scale = vec![1.0; residual.len()];
-    Error::OffConstraint {
-        level,
-        constraints: diagnose::offending(spec, residual, &scale),
-    }
+    let constraints = diagnose::offending(spec, residual, |_| 1.0);
+    Error::OffConstraint { level, constraints }
 }

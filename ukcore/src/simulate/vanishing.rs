@@ -12,6 +12,7 @@
 use super::independence::Independence;
 use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
+use crate::dense::Rows;
 use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
@@ -69,6 +70,13 @@ pub(super) struct Vanishing {
     pub(super) reached: f64,
     /// The motion comes to rest there.
     pub(super) rest: bool,
+}
+
+impl Vanishing {
+    /// How large the row is in `rows` of A, beside what it has been.
+    pub(super) fn size_in(&self, rows: Rows<'_>) -> f64 {
+        rows.largest(self.row, &self.scale) / self.size
+    }
 }
 
 /// The rows of A along a run.

@@ -5,7 +5,7 @@ use crate::dense::Rows;
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Evaluated;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, or_one};
 
 /// The equations at the nearest state on the manifold.
 #[derive(Debug, Clone)]
@@ -78,7 +78,8 @@ impl Solver {
         let residual = (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]);
         let residual: Vec<f64> = residual.collect();
         Err(Error::Inconsistent {
-            constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
+            // A row of zeros has no scale: 0 = b.
+            constraints: diagnose::offending(spec, &residual, |c| or_one(self.dense.row_scale[c])),
         })
     }
 
