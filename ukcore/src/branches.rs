@@ -11,7 +11,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, quaternions, units};
+use crate::modes::{constraint_matrix, null_space_holding, quaternions, units};
 use crate::random::Random;
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
@@ -315,8 +315,7 @@ struct Places {
 impl Places {
     /// Of places beside the one `at`.
     fn new(mech: &Prepared, at: &State, extents: Vec<f64>) -> Self {
-        let found = quaternions(mech, &mass_matrix(mech, at), &constraint_matrix(mech, at));
-        let found = found.into_iter().map(|(_, all)| all);
+        let found = quaternions(mech, at).into_iter().map(|(_, all)| all);
         Places {
             angles: mech.spec().structure.angles,
             quaternions: found.filter(|all| all.len() == 4).collect(),

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
-use crate::mechanism::{Evaluated, Prepared};
+use crate::mechanism::Prepared;
 use crate::modes::{
     INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
 };
@@ -169,16 +169,12 @@ pub fn diagnose_along(
 }
 
 /// The coordinates whose declared inertia is zero at `state`.
-fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String> {
+fn without_inertia(mech: &Prepared, state: &State) -> Option<String> {
     let spec = mech.spec();
-    let mut here = Evaluated::new(spec.n(), spec.m());
-    here.dynamics(mech, *t, q, v);
-    let mass = DMatrix::from_vec(spec.n(), spec.n(), here.mass);
-    let rows = DMatrix::from_vec(spec.m(), spec.n(), here.jacobian);
     // No orientation has inertia along its quaternion, which is a coordinate's own direction where axes agree.
-    let lengths = quaternions(mech, &mass, &rows);
+    let lengths = quaternions(mech, state);
     let own = |i: &usize| lengths.iter().any(|(_, all)| all.contains(i));
-    let diagonal = mass.diagonal();
+    let diagonal = mass_matrix(mech, state).diagonal();
     let diagonal = diagonal.iter().enumerate();
     let gone =
         diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i) && !own(i));
@@ -238,11 +234,7 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
     let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
     let mut bodies: Vec<&str> = (0..spec.n()).filter_map(body).collect();
     bodies.dedup();
-    let lengths = quaternions(
-        mech,
-        &mass_matrix(mech, state),
-        &constraint_matrix(mech, state),
-    );
+    let lengths = quaternions(mech, state);
     let pattern = spec.structure.jacobian_pattern;
     let ways = |name: &&str| {
         let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
@@ -307,8 +299,7 @@ pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
 /// Rows of A at `state`, measured and of length 1, but what they say of the lengths of quaternions, which the constraints of these keep: it
 /// depends on how a row is written, and beside these constraints on the orientation.
 fn apart_from_lengths(mech: &Prepared, state: &State, mut rows: DMatrix<f64>) -> DMatrix<f64> {
-    let mass = mass_matrix(mech, state);
-    for (own, _) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+    for (own, _) in quaternions(mech, state) {
         let along = rows.row(own).into_owned();
         for (_, mut row) in rows.row_iter_mut().enumerate().filter(|(c, _)| *c != own) {
             row -= &along * row.dot(&along);

@@ -240,7 +240,7 @@ const LIGHTEST: f64 = 1e-12;
 pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
     let mass = mass_matrix(mech, state);
     let mut inertia = mass.diagonal();
-    for (_, all) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+    for (_, all) in quaternions(mech, state) {
         let whole: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
         let mean = whole / (all.len() - 1) as f64;
         all.iter().for_each(|j| inertia[*j] = mean);
@@ -255,13 +255,10 @@ pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
 /// A product with M is none below this share of what its factors could make.
 const WEIGHTLESS: f64 = 1e-12;
 
-/// The constraints that keep the length of a quaternion, with its coordinates, where A has the entries `rows`: along their gradient nothing
-/// has inertia, as the kinetic energy of a body knows nothing of the quaternion's length.
-pub(crate) fn quaternions(
-    mech: &Prepared,
-    mass: &DMatrix<f64>,
-    rows: &DMatrix<f64>,
-) -> Vec<(usize, Vec<usize>)> {
+/// The constraints that keep the length of a quaternion, with its coordinates, at `state`: along their gradient nothing has inertia, as the
+/// kinetic energy of a body knows nothing of the quaternion's length.
+pub(crate) fn quaternions(mech: &Prepared, state: &State) -> Vec<(usize, Vec<usize>)> {
+    let (mass, rows) = (mass_matrix(mech, state), constraint_matrix(mech, state));
     let Structure {
         solve,
         jacobian_pattern,
@@ -274,7 +271,7 @@ pub(crate) fn quaternions(
     let weightless = |(c, all): &(usize, Vec<usize>)| {
         let inertia: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
         let size = all.iter().fold(0.0_f64, |sum, j| sum.hypot(rows[(*c, *j)]));
-        let force = mass * rows.row(*c).transpose();
+        let force = &mass * rows.row(*c).transpose();
         let mut forces = force.iter().enumerate();
         let none = forces.all(|(i, f)| {
             f.abs() <= WEIGHTLESS * size * (inertia * mass[(i, i)].max(inertia)).sqrt()

@@ -135,6 +135,15 @@ impl Trajectory {
         self.integrals.extend_from_slice(sample.integrals);
     }
 
+    /// Leaves so many samples and events.
+    pub(crate) fn truncate(&mut self, samples: usize, events: usize) {
+        let count = self.integrals.len() / self.times.len().max(1);
+        self.times.truncate(samples);
+        self.states.truncate(2 * self.spec().n() * samples);
+        self.integrals.truncate(count * samples);
+        self.events.truncate(events);
+    }
+
     /// The run has got to this state.
     pub(crate) fn reach(&mut self, now: Sample<'_>) {
         if let Some(end) = &mut self.end {

@@ -25,15 +25,12 @@ impl Rates<f64> for Equations<'_> {
 
     fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
         let (q_rate, v_rate) = rate.split_at_mut(y.len() / 2);
+        q_rate.copy_from_slice(&y[v_rate.len()..]);
+        self.acceleration(s, y, v_rate)?;
         if self.nearby {
-            let nearest = self.nearest(s, y)?;
-            q_rate.copy_from_slice(&nearest[q_rate.len()..]);
-            let result = self.evaluate(s, &nearest, v_rate);
-            self.consistent = nearest;
-            return result;
+            q_rate.copy_from_slice(&self.consistent[v_rate.len()..]);
         }
-        q_rate.copy_from_slice(&y[q_rate.len()..]);
-        self.evaluate(s, y, v_rate)
+        Ok(())
     }
 }
 
@@ -165,11 +162,15 @@ pub(super) trait Scheme {
     fn unfit(&mut self, h: f64) -> f64;
 
     /// From the next attempt on steps have this tolerance.
-    fn tolerate(&mut self, tolerance: &Tolerance);
+    fn tolerate(&mut self, tolerance: &Tolerance) {
+        let _ = tolerance;
+    }
 
     /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
     /// cannot be put so that a place lies in it.
-    fn gap(&self) -> Option<[f64; 2]>;
+    fn gap(&self) -> Option<[f64; 2]> {
+        None
+    }
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

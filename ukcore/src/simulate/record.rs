@@ -83,19 +83,13 @@ impl<'s> Recorder<'s> {
     /// what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let taken = self.agenda.taken();
-        let trajectory = &self.trajectory;
-        let (samples, values) = (trajectory.times.len(), trajectory.states.len());
-        let sums = trajectory.integrals.len();
-        let (events, ending) = (trajectory.events.len(), trajectory.ending);
+        let Trajectory { ending, .. } = self.trajectory;
+        let (samples, events) = (self.trajectory.len(), self.trajectory.events.len());
         let recorded = self.record(step);
         if !matches!(recorded, Ok(error) if error <= 1.0) {
-            let trajectory = &mut self.trajectory;
             self.agenda.return_to(taken);
-            trajectory.times.truncate(samples);
-            trajectory.states.truncate(values);
-            trajectory.integrals.truncate(sums);
-            trajectory.events.truncate(events);
-            trajectory.ending = ending;
+            self.trajectory.truncate(samples, events);
+            self.trajectory.ending = ending;
             return recorded;
         }
         self.watch.accept();
@@ -146,9 +140,9 @@ impl<'s> Recorder<'s> {
         while let Some(t) = self.agenda.next().filter(passed) {
             within.consistent(t, between)?;
             self.agenda.take();
+            let sums = sums(&mut self.integrals, &mut within, &mut integrated, t)?;
             trajectory.times.push(t);
             trajectory.states.extend_from_slice(between);
-            let sums = sums(&mut self.integrals, &mut within, &mut integrated, t)?;
             trajectory.integrals.extend_from_slice(sums);
         }
         within.consistent(t_stop, between)?;
@@ -193,10 +187,7 @@ impl<'s> Recorder<'s> {
         if self.handed.is_continue() {
             self.handed = hand_all();
         }
-        trajectory.times.clear();
-        trajectory.states.clear();
-        trajectory.integrals.clear();
-        trajectory.events.clear();
+        trajectory.truncate(0, 0);
     }
 
     /// The state with which the run ended becomes its last sample, if samples are not at given times only.
