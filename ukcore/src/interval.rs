@@ -1,10 +1,9 @@
 //! Where the values of a function lie while its arguments vary: emitted code run on intervals.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::Scalar;
 use crate::scalar::tape::player;
+use crate::scalar::{Scalar, operators};
 
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
@@ -93,41 +92,15 @@ fn product(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }
 
-impl Add for Interval {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Interval::between(self.low + o.low, self.high + o.high)
-    }
-}
-impl Sub for Interval {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + -o
-    }
-}
-impl Mul for Interval {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        self.times(o)
-    }
-}
-impl Div for Interval {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        if o.has(0.0) {
-            return ALL;
-        }
-        self.times(Interval::between(o.high.recip(), o.low.recip()))
-    }
-}
-impl Neg for Interval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Interval {
-            low: -self.high,
-            high: -self.low,
-        }
-    }
+operators! { Interval:
+    Add add |a, b| Interval::between(a.low + b.low, a.high + b.high);
+    Sub sub |a, b| a + -b;
+    Mul mul |a, b| a.times(b);
+    Div div |a, b| match b.has(0.0) {
+        true => ALL,
+        false => a.times(Interval::between(b.high.recip(), b.low.recip())),
+    };
+    Neg neg |a| Interval { low: -a.high, high: -a.low };
 }
 
 macro_rules! rising {

@@ -141,6 +141,20 @@ macro_rules! functions {
 }
 pub(crate) use functions;
 
+/// Makes the operators of a number type from functions of their operands.
+macro_rules! operators {
+    ($S:ty: $($Operator:ident $name:ident |$a:ident $(, $b:ident)?| $result:expr;)*) => {
+        $(impl std::ops::$Operator for $S {
+            type Output = Self;
+            fn $name(self $(, $b: Self)?) -> Self {
+                let $a = self;
+                $result
+            }
+        })*
+    };
+}
+pub(crate) use operators;
+
 macro_rules! float {
     ($f:ident) => {
         impl Scalar for $f {
