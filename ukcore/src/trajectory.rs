@@ -20,7 +20,6 @@ mod multipliers;
 
 pub use csv::CsvWriter;
 pub(crate) use drift::EnergyDrift;
-use drift::Gauge;
 pub use drift::{Drift, Residual};
 
 /// What a [streamed](crate::Simulation::stream) run hands over.
@@ -362,8 +361,8 @@ impl Trajectory {
     /// How far the samples are off the constraints.
     #[must_use]
     pub fn residuals(&self) -> Vec<Residual> {
-        let mut gauge = Gauge::new(self.mechanism.clone());
-        self.samples().map(|s| gauge.residual(s)).collect()
+        let residual = |s| Residual::of(&self.mechanism, s);
+        self.samples().map(residual).collect()
     }
 
     /// Accelerations q̈ at the samples, by the formula of the run.

@@ -2,7 +2,7 @@
 
 use super::crossing;
 use super::vanishing::{Loss, Vanishing};
-use crate::assemble::State;
+use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
 use crate::diagnose;
 use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
@@ -41,17 +41,14 @@ pub(super) fn check_branch(
     weakest: f64,
     step: &Step<'_>,
 ) -> Result<(), Error> {
-    if weakest > 16.0 * SINGULAR {
-        return Ok(());
-    }
-    if weakest_at(solver, step.new)? > SINGULAR {
+    if weakest > 16.0 * SINGULAR || weakest_at(solver, step.new)? > SINGULAR {
         return Ok(());
     }
     let error = singular(solver, SINGULAR);
-    if weakest_at(solver, step.old)? > SINGULAR {
-        return Err(error);
+    match weakest_at(solver, step.old)? > SINGULAR {
+        true => Err(error),
+        false => Ok(()),
     }
-    Ok(())
 }
 
 /// An error that names the constraints whose significance in the last solution was not above `significance`.
@@ -91,14 +88,9 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     };
     // Where velocities jump, positions are off by no more than what that makes of them within the step.
     let position = change(q, &near_q) >= 2.0 * (t - t_old).abs() * change(v, &near_v);
-    let residual = |t: f64| {
-        let mut residual = vec![0.0; spec.m()];
-        if position {
-            followed.residual(t, q, &mut residual[..spec.holonomic]);
-        } else {
-            followed.residual_rate(t, &near_q, v, &mut residual);
-        }
-        residual
+    let residual = |t: f64| match position {
+        true => Residuals::at(&followed, t, q, v).position,
+        false => Residuals::at(&followed, t, &near_q, v).velocity,
     };
     // What the time alone has made of it since the last step, which may have gone just onto the jump.
     let after = residual(t);
@@ -124,8 +116,7 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
 /// there without a gradient, as a length does that is zero.
 pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
     let spec = mechanism.spec();
-    let mut residual = vec![0.0; spec.holonomic];
-    mechanism.residual(at.t, at.q, &mut residual);
+    let residual = Residuals::at(mechanism, at.t, at.q, at.v).position;
     let ended = diagnose::offending(spec, &residual, |_| 1.0);
     let constraints: Vec<String> = ended.into_iter().map(|(name, _)| name).collect();
     (!constraints.is_empty()).then_some(Error::Singular { constraints })

@@ -4,7 +4,7 @@ use super::agenda::Agenda;
 use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
 use super::{START_BOUND, Simulation, angles, obstacles};
-use crate::assemble::State;
+use crate::assemble::{Residuals, State};
 use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
@@ -110,14 +110,12 @@ impl Simulation {
         let absolute: Vec<f64> = of_q.iter().map(|x| tolerance.relative * x).collect();
         let absolute = &absolute[..];
         if !near([&q, &new_q], absolute, &measure) {
-            let mut residual = vec![0.0; spec.holonomic];
-            mech.residual(t, &q, &mut residual);
+            let residual = Residuals::at(mech, t, &q, &v).position;
             return Err(off_constraint(spec, "position", &residual));
         }
         let velocity = projector.velocity(t, &new_q, &mut new_v)?;
         if !near([&v, &new_v], absolute, &measure) {
-            let mut residual = vec![0.0; spec.m()];
-            mech.residual_rate(t, &new_q, &v, &mut residual);
+            let residual = Residuals::at(mech, t, &new_q, &v).velocity;
             return Err(off_constraint(spec, "velocity", &residual));
         }
         work.projections += 1;
