@@ -285,23 +285,16 @@ impl Manifold {
             return Ok(Correction::default());
         }
         self.start.copy_from_slice(x);
-        let mut count = None;
         if at.straight_line() && self.newton.acceptance.ease.is_empty() {
             let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
             if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
-                count = Some(steps);
-            } else {
-                x.copy_from_slice(&self.start);
+                return Ok(self.correction(x, steps));
             }
+            x.copy_from_slice(&self.start);
         }
-        let count = match count {
-            Some(count) => count,
-            None => {
-                let steps = self.reveal(at, x);
-                steps.inspect_err(|_| x.copy_from_slice(&self.start))?
-            }
-        };
-        Ok(self.correction(x, count))
+        let steps = self.reveal(at, x);
+        let steps = steps.inspect_err(|_| x.copy_from_slice(&self.start))?;
+        Ok(self.correction(x, steps))
     }
 
     /// What `count` steps to `x` have done.

@@ -374,16 +374,10 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let Compared {
-            rows,
-            own,
-            rows_gain,
-            own_gain,
-            kept,
-        } = self.compared;
+        let Compared { rows, own, kept } = self.compared;
         let [mut change, mut gain] = match self.together && kept && self.leaves.are_all() {
-            true => [own, own_gain],
-            false => [rows, rows_gain],
+            true => own,
+            false => rows,
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         if let Some(which) = self.asked
@@ -392,10 +386,10 @@ impl RowWatch {
             let here = &self.here.entries;
             let left = beside.left(here);
             let before = self.left[which];
-            change = STEEPER * (rows / left).max((before - left) / left);
-            gain = STEEPER * rows_gain / left;
+            change = STEEPER * (rows[0] / left).max((before - left) / left);
+            gain = STEEPER * rows[1] / left;
             if kept {
-                (change, gain) = (change.max(own), gain.max(own_gain));
+                (change, gain) = (change.max(own[0]), gain.max(own[1]));
             }
             self.left[which] = left;
         }
