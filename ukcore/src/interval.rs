@@ -92,7 +92,7 @@ fn product(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }
 
-operators! { Interval:
+operators! { [] Interval:
     Add add |a, b| Interval::between(a.low + b.low, a.high + b.high);
     Sub sub |a, b| a + -b;
     Mul mul |a, b| a.times(b);

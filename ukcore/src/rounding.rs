@@ -83,7 +83,7 @@ fn carried(slope: f64, error: f64) -> f64 {
     }
 }
 
-operators! { Rounded:
+operators! { [] Rounded:
     Add add |a, b| Rounded::result(a.value + b.value, a.error + b.error);
     Sub sub |a, b| Rounded::result(a.value - b.value, a.error + b.error);
     Mul mul |a, b| a.binary(b, |a, b| a * b);

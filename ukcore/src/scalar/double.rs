@@ -111,7 +111,7 @@ impl DoubleDouble {
     }
 }
 
-operators! { DoubleDouble:
+operators! { [] DoubleDouble:
     Add add |a, b| {
         let (s, e) = two_sum(a.hi, b.hi);
         let (t, f) = two_sum(a.lo, b.lo);
