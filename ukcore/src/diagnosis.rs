@@ -114,7 +114,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
         only_here.clone_from(&follow);
         only_here.retain(|row| !remain.contains(row));
     }
-    let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
+    let free = free(&rows, &follow);
     let (margin, nearest) = match only_here.is_empty() {
         true => margin(&apart_from_lengths(&mech, state, rows.clone()), &free),
         false => (0.0, only_here.clone()),
@@ -149,10 +149,7 @@ pub fn diagnose_along(
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
         let found = independent(&mut solver, &state).map(|(rank, rows)| {
-            let follow = implied(&relations(&rows, rank));
-            let free: Vec<usize> = (0..mech.spec().m())
-                .filter(|row| !follow.contains(row))
-                .collect();
+            let free = free(&rows, &implied(&relations(&rows, rank)));
             let rows = apart_from_lengths(&mech, &state, rows);
             (rank, margin(&rows, &free).0)
         });
@@ -356,6 +353,12 @@ fn implied(relations: &[Relation]) -> Vec<usize> {
     relations.iter().map(|relation| relation.row).collect()
 }
 
+/// Those of `rows` that do not `follow` from others.
+fn free(rows: &DMatrix<f64>, follow: &[usize]) -> Vec<usize> {
+    let all = 0..rows.nrows();
+    all.filter(|row| !follow.contains(row)).collect()
+}
+
 /// What the rows before each of `rows`, of which `rank` are independent, imply of it: so many relations as there are more rows than that.
 pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     let (m, n) = rows.shape();
@@ -381,7 +384,7 @@ pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     kept.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
     let mut implied: Vec<usize> = kept[..m - rank].iter().map(|(_, i)| *i).collect();
     implied.sort_unstable();
-    let free: Vec<usize> = (0..m).filter(|i| !implied.contains(i)).collect();
+    let free = free(rows, &implied);
     let factored = (!free.is_empty())
         .then(|| singular(rows.select_rows(&free).transpose(), true, true))
         .flatten();

@@ -69,10 +69,9 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
     let units = units(&mech, state);
-    let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
     let (flow, pace) = flow(&found, &units);
-    let tangent = tangent(&mech, state, &jacobian, &units, pace);
+    let tangent = tangent(&mech, state, &units, pace);
     if tangent.ncols() == 0 {
         return Ok(Vec::new());
     }
@@ -390,21 +389,14 @@ fn steady(
     Ok(())
 }
 
-/// An orthonormal basis of the deviations that meet the constraints, of which A is `jacobian`, in `units` and times of which `pace` are a
-/// second.
-fn tangent(
-    mech: &Prepared,
-    state: &State,
-    jacobian: &DMatrix<f64>,
-    units: &DVector<f64>,
-    pace: f64,
-) -> DMatrix<f64> {
-    let spec = mech.spec();
+/// An orthonormal basis of the deviations that meet the constraints, in `units` and times of which `pace` are a second.
+fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>, pace: f64) -> DMatrix<f64> {
+    let (spec, jacobian) = (mech.spec(), constraint_matrix(mech, state));
     let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
     let mut rows = DMatrix::zeros(h + m, 2 * n);
     rows.view_mut((0, 0), (h, n))
         .copy_from(&jacobian.rows(0, h));
-    rows.view_mut((h, n), (m, n)).copy_from(jacobian);
+    rows.view_mut((h, n), (m, n)).copy_from(&jacobian);
     let sloped = mech.sloped();
     let mut rate = vec![Sloped::from_f64(0.0); m];
     let v: Vec<Sloped> = state.v.iter().copied().map(Sloped::from_f64).collect();
