@@ -264,7 +264,7 @@ impl Implicit {
         columns: &mut [f64],
     ) -> Result<(), Error> {
         let (acceleration, multipliers) = (&mut self.acceleration, &mut self.multipliers);
-        let formula = solver.balance(t, q, v, acceleration, multipliers)?;
+        let formula = solver.balance((t, q, v), acceleration, multipliers)?;
         for (k, columns) in columns.chunks_mut(q.len() * AT_ONCE).enumerate() {
             sweep.aim(t, q, v, k * AT_ONCE);
             self.evaluate(sweep, solver.baumgarte());

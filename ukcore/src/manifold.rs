@@ -193,8 +193,8 @@ impl Projector {
         Ok(corrections)
     }
 
-    /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
-    /// which is more exact than the difference of coordinates.
+    /// Moves q, the first of `moved`, onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; the other is the
+    /// sum of all moves, which is more exact than the difference of coordinates.
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
@@ -202,11 +202,10 @@ impl Projector {
         &mut self,
         t: f64,
         base: &[f64],
-        q: &mut [f64],
-        shift: &mut [f64],
+        moved: [&mut [f64]; 2],
     ) -> Result<Correction, Error> {
         let at = At::new(&self.mechanism, Level::Position, t, base);
-        self.manifold.reach(&at, q, shift)
+        self.manifold.reach(&at, moved)
     }
 
     /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
@@ -315,8 +314,7 @@ impl Manifold {
     fn reach(
         &mut self,
         at: &At<'_, f64>,
-        q: &mut [f64],
-        shift: &mut [f64],
+        [q, shift]: [&mut [f64]; 2],
     ) -> Result<Correction, Error> {
         shift.fill(0.0);
         if at.rows() == 0 {

@@ -60,6 +60,9 @@ pub(crate) const CLEAR: f64 = 4.0 * RANK_CEILING;
 /// ten), and one Newton correction measures the drift to first order.
 pub const DRIFT_FACTOR: f64 = 10.0;
 
+/// A time, coordinates and velocities.
+pub(crate) type Given<'a> = (f64, &'a [f64], &'a [f64]);
+
 /// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Solver {
@@ -173,9 +176,9 @@ impl Solver {
         diagnose::subnormal(&self.mechanism)?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
-            self.acceleration_in_run(t, q, v, out)
+            self.acceleration_in_run((t, q, v), out)
         } else {
-            self.rank_revealing(t, q, v, out)
+            self.rank_revealing((t, q, v), out)
         }
     }
 
@@ -184,20 +187,18 @@ impl Solver {
     #[inline]
     pub(crate) fn acceleration_in_run(
         &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        at: Given<'_>,
         out: &mut [f64],
     ) -> Result<(), Error> {
-        match self.goes_straight(t, q, v, out) {
+        match self.goes_straight(at, out) {
             true => Ok(()),
-            false => self.goes_round(t, q, v, out),
+            false => self.goes_round(at, out),
         }
     }
 
     /// Accelerations by the straight line, if it can be trusted.
     #[inline]
-    pub(crate) fn goes_straight(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+    pub(crate) fn goes_straight(&mut self, (t, q, v): Given<'_>, out: &mut [f64]) -> bool {
         if !self.straight_line {
             return false;
         }
@@ -223,30 +224,24 @@ impl Solver {
 
     /// Accelerations where the straight line was tried, and left them in `out` for refinement, or there is none.
     #[cold]
-    pub(crate) fn goes_round(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        out: &mut [f64],
-    ) -> Result<(), Error> {
+    pub(crate) fn goes_round(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
         if !self.straight_line {
-            return self.rank_revealing(t, q, v, out);
+            return self.rank_revealing(at, out);
         }
         if self.dropping.is_uneven() && all_finite(out) {
-            self.here.dynamics(&self.mechanism, t, q, v);
+            self.here.dynamics(&self.mechanism, at.0, at.1, at.2);
             if self.is_even() {
                 self.count();
                 return Ok(());
             }
         }
-        if self.refined(t, q, v, out) {
+        if self.refined(at, out) {
             self.full = self.m;
             return Ok(());
         }
         // Once for a solution, whatever else is left on the way; not for one that confirms what the straight line found.
         let fallbacks = self.work.fallbacks;
-        let result = self.rank_revealing(t, q, v, out);
+        let result = self.rank_revealing(at, out);
         let rank = self.dense.cod.rank();
         let confirmed = result.is_ok() && self.dropping.confirm(rank, self.m);
         self.work.fallbacks = fallbacks + usize::from(!confirmed);
@@ -254,18 +249,12 @@ impl Solver {
     }
 
     /// Accelerations by the rank-revealing solve.
-    fn rank_revealing(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        out: &mut [f64],
-    ) -> Result<(), Error> {
-        let decided = self.decide(t, q, v)?;
+    fn rank_revealing(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
+        let decided = self.decide(at)?;
         self.apply_all_forces();
         self.solve_for_force(decided.formula, out);
         self.remember(decided.formula);
-        self.check(t, q, v, decided.tolerance, out)
+        self.check(at, decided.tolerance, out)
     }
 
     /// Leaves c out of what [`Solver::solve`] solves: it may be no number where reactions are not, while constraints are what they are.
@@ -282,7 +271,7 @@ impl Solver {
         diagnose::inertias(&self.mechanism)?;
         let n = self.n;
         let mut ideal = vec![0.0; n];
-        let decided = self.decide(t, q, v)?;
+        let decided = self.decide((t, q, v))?;
         self.force.copy_from_slice(&self.here.force);
         self.solve_for_force(decided.formula, &mut ideal);
         let mut ideal_force = if decided.formula == Formula::UdwadiaKalaba {
@@ -303,7 +292,7 @@ impl Solver {
             axpy(-1.0, &ideal, &mut change);
             nonideal_force = self.mass_times(&change);
         }
-        self.check(t, q, v, decided.tolerance, &acceleration)?;
+        self.check((t, q, v), decided.tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
         self.dense
             .multipliers(&mut ideal_force.clone(), &mut multipliers);
@@ -328,16 +317,14 @@ impl Solver {
     /// q̈ and all λ, with M q̈ = Q + c + Aᵀλ, by the rank-revealing solve, whose factors then serve [`Solver::respond`].
     pub(crate) fn balance(
         &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        at: Given<'_>,
         acceleration: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<Formula, Error> {
-        let decided = self.decide(t, q, v)?;
+        let decided = self.decide(at)?;
         self.apply_all_forces();
         self.solve_for_force(decided.formula, acceleration);
-        self.check(t, q, v, decided.tolerance, acceleration)?;
+        self.check(at, decided.tolerance, acceleration)?;
         let mut reaction = self.mass_times(acceleration);
         axpy(-1.0, &self.force, &mut reaction);
         self.dense.multipliers(&mut reaction, multipliers);
@@ -428,7 +415,7 @@ impl Solver {
     }
 
     /// Evaluates, factors, and decides the rank.
-    fn decide(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Decided, Error> {
+    fn decide(&mut self, (t, q, v): Given<'_>) -> Result<Decided, Error> {
         diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
@@ -453,7 +440,7 @@ impl Solver {
         let measure = &mut self.dense.measure;
         measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
         let formula = self.factor()?;
-        let tolerance = self.decide_rank(t, q, v)?;
+        let tolerance = self.decide_rank((t, q, v))?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
             return Err(Error::Underdetermined {
                 coordinates: diagnose::participating(
@@ -474,9 +461,7 @@ impl Solver {
         let floor = self.options.rank_tolerance;
         let a = self.here.rows();
         // Where M may come near singular, M⁻¹ Q and what the constraints take off it may be so large that q̈ is lost between them.
-        let solve = &structure.solve;
-        let regular =
-            structure.massless.is_empty() && solve.regular.is_empty() && solve.met.is_empty();
+        let regular = structure.is_regular();
         let (route, formula) = match self.options.formula {
             Formula::Auto if regular && !self.singular => (Route::Regular, Formula::UdwadiaKalaba),
             Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),

@@ -77,7 +77,7 @@ impl Rattle {
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
         add(q, q_lost, h, v);
         let problem = &mut *equations.problem;
-        if let Err(error) = problem.project_along(t, &self.base, q, &mut self.shift) {
+        if let Err(error) = problem.project_along(t, &self.base, [q, &mut self.shift]) {
             let step = self.step.abs();
             let reason = format!("is {step}, which is too long here: {error}");
             let error = Error::invalid("step", reason);

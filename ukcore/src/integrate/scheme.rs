@@ -131,8 +131,7 @@ pub(super) trait Scheme {
     fn close(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause>;
 
     /// Makes the coefficients of the interpolant of the closed step, if closing did not, for [`dense`](Scheme::dense).
-    fn interpolate(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<(), Cause> {
-        let _ = (equations, step);
+    fn interpolate(&mut self, _equations: &mut Equations<'_>, _step: Trial) -> Result<(), Cause> {
         Ok(())
     }
 
@@ -140,9 +139,7 @@ pub(super) trait Scheme {
     fn dense(&self) -> &[f64];
 
     /// Gives [`error`](Scheme::error) of the closed step the size `norm` in the error norm.
-    fn scale_error(&mut self, norm: f64) {
-        let _ = norm;
-    }
+    fn scale_error(&mut self, _norm: f64) {}
 
     /// What the state at the end of the closed step is thought to be off; `None` where there is no telling.
     fn error(&self) -> Option<&[f64]> {
@@ -162,9 +159,7 @@ pub(super) trait Scheme {
     fn unfit(&mut self, h: f64) -> f64;
 
     /// From the next attempt on steps have this tolerance.
-    fn tolerate(&mut self, tolerance: &Tolerance) {
-        let _ = tolerance;
-    }
+    fn tolerate(&mut self, _tolerance: &Tolerance) {}
 
     /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
     /// cannot be put so that a place lies in it.

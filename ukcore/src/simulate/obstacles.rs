@@ -61,7 +61,7 @@ fn singular(solver: &Solver, significance: f64) -> Error {
 /// The least significance of a constraint that counts at a state.
 fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
     let mut acceleration = vec![0.0; at.q.len()];
-    let solved = solver.acceleration_in_run(at.t, at.q, at.v, &mut acceleration);
+    let solved = solver.acceleration_in_run((at.t, at.q, at.v), &mut acceleration);
     // In any case: what is left there would hide what the next step meets.
     let weakest = solver.take_weakest();
     solved.map(|()| weakest)

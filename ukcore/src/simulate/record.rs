@@ -132,21 +132,20 @@ impl<'s> Recorder<'s> {
             }
         }
         if let Some(integrals) = &mut self.integrals {
-            integrals.begin();
+            integrals.begin(step.old.t);
         }
-        let mut integrated = step.old.t;
         let sign = if step.until < step.old.t { -1.0 } else { 1.0 };
         let passed = |t: &f64| sign * t <= sign * t_stop;
         while let Some(t) = self.agenda.next().filter(passed) {
             within.consistent(t, between)?;
             self.agenda.take();
-            let sums = sums(&mut self.integrals, &mut within, &mut integrated, t)?;
+            let sums = sums(&mut self.integrals, &mut within, t)?;
             trajectory.times.push(t);
             trajectory.states.extend_from_slice(between);
             trajectory.integrals.extend_from_slice(sums);
         }
         within.consistent(t_stop, between)?;
-        sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
+        sums(&mut self.integrals, &mut within, t_stop)?;
         let reached = self.integrals.as_ref().map(Integrals::reached);
         let (integrals, error) = reached.unwrap_or_default();
         if error > 1.0 {
@@ -208,15 +207,20 @@ impl<'s> Recorder<'s> {
 
     /// Projects the state at the end of a step, and counts it.
     pub(super) fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
-        project(&mut self.projector, &mut self.trajectory.work, t, (q, v))
+        let work = &mut self.trajectory.work;
+        work.projections += 1;
+        let position = self.projector.position(t, q, v)?;
+        work.projection_iterations += position.iterations;
+        let velocity = self.projector.velocity(t, q, v)?;
+        work.projection_iterations += velocity.iterations;
+        Ok(())
     }
 }
 
-/// The integrals at `t`, which go on from time `at`.
+/// The integrals at `t`.
 fn sums<'a>(
     integrals: &'a mut Option<Integrals>,
     within: &mut Within<'_, '_>,
-    at: &mut f64,
     t: f64,
 ) -> Result<&'a [f64], Error> {
     let Some(integrals) = integrals else {
@@ -231,22 +235,7 @@ fn sums<'a>(
         to: new.t,
         error,
     };
-    integrals.go(&mut along, std::mem::replace(at, t), t)
-}
-
-/// Projects a state, positions first, and counts it.
-fn project(
-    projector: &mut Projector,
-    work: &mut Work,
-    t: f64,
-    (q, v): (&mut [f64], &mut [f64]),
-) -> Result<(), Error> {
-    work.projections += 1;
-    let position = projector.position(t, q, v)?;
-    work.projection_iterations += position.iterations;
-    let velocity = projector.velocity(t, q, v)?;
-    work.projection_iterations += velocity.iterations;
-    Ok(())
+    integrals.go(&mut along, t)
 }
 
 /// The states of one step.

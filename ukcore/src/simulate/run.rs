@@ -97,11 +97,11 @@ impl Run<'_> {
 
 impl Problem for Run<'_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
-        if self.solver.goes_straight(at.t, at.q, at.v, out) {
+        if self.solver.goes_straight((at.t, at.q, at.v), out) {
             return Ok(());
         }
         let weakest = self.solver.weakest();
-        let result = self.solver.goes_round(at.t, at.q, at.v, out);
+        let result = self.solver.goes_round((at.t, at.q, at.v), out);
         if self.solver.weakest() < weakest {
             self.nearest = Some(at.to_state());
         }
@@ -129,16 +129,10 @@ impl Problem for Run<'_> {
         result
     }
 
-    fn project_along(
-        &mut self,
-        t: f64,
-        base: &[f64],
-        q: &mut [f64],
-        shift: &mut [f64],
-    ) -> Result<(), Error> {
+    fn project_along(&mut self, t: f64, base: &[f64], moved: [&mut [f64]; 2]) -> Result<(), Error> {
         let work = &mut self.recorder.trajectory.work;
         work.projections += 1;
-        let correction = (self.recorder.projector).position_along(t, base, q, shift)?;
+        let correction = (self.recorder.projector).position_along(t, base, moved)?;
         work.projection_iterations += correction.iterations;
         Ok(())
     }
