@@ -12,6 +12,7 @@
 
 use crate::measure::Measure;
 use crate::mechanism::Evaluated;
+pub(crate) use crate::metric::Rows;
 use crate::metric::{MassFault, Metric, divide, divide_transposed, pivoted_cholesky};
 use crate::pinv::Decomposition;
 use crate::scan::{axpy, dot, largest, or_one, place_of_largest};
@@ -23,49 +24,6 @@ const INERTIA_ROUNDING: f64 = 64.0;
 
 /// What is left of q̈ where it is not refined any more: the ratio of masses of any use is far above.
 const MOST_LEFT: f64 = 1e-60;
-
-/// Some rows of A (m × n, column-major): the first `rows`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Rows<'a> {
-    pub(crate) jacobian: &'a [f64],
-    /// m, the distance of columns.
-    pub(crate) stride: usize,
-    pub(crate) rows: usize,
-}
-
-impl<'a> Rows<'a> {
-    /// All rows of an A that has so many.
-    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
-        let stride = rows;
-        Rows {
-            jacobian,
-            stride,
-            rows,
-        }
-    }
-
-    /// Entries of row `c`.
-    pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
-        let entries = self.jacobian.iter().skip(c);
-        entries.step_by(self.stride.max(1)).copied()
-    }
-
-    /// (A x)_c.
-    pub(crate) fn product(self, c: usize, x: &[f64]) -> f64 {
-        self.row(c).zip(x).map(|(a, x)| a * x).sum()
-    }
-
-    /// Σ |A_ci x_i|, the size of the terms of (A x)_c.
-    pub(crate) fn magnitude(self, c: usize, x: &[f64]) -> f64 {
-        self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
-    }
-
-    /// max |A_ci| sᵢ, of coordinates with the [scale](Measure::scale) s.
-    pub(crate) fn largest(self, c: usize, scale: &[f64]) -> f64 {
-        let entries = self.row(c).zip(scale).map(|(a, s)| (a * s).abs());
-        entries.fold(0.0, f64::max)
-    }
-}
 
 impl Evaluated {
     /// All rows of A.
@@ -169,14 +127,10 @@ impl Dense {
     ) -> Result<(), MassFault> {
         match route {
             Route::Regular => self.metric.factor(mass)?,
-            Route::Singular => (self.metric).scale(
-                mass,
-                a.jacobian,
-                a.stride,
-                a.rows,
-                self.regular.iter().copied().flatten().copied(),
-                &self.measure.scale,
-            )?,
+            Route::Singular => {
+                let regular = self.regular.iter().copied().flatten().copied();
+                self.metric.scale(mass, a, regular, &self.measure.scale)?;
+            }
         }
         let columns = self.cod.load(a.rows);
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {

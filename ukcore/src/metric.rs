@@ -13,6 +13,49 @@ const PIVOT_ROUNDING: f64 = 256.0;
 /// with interchanges decides: without them a nearly massless coordinate that stands first spoils the pivots after it.
 const DOUBT: f64 = 1e-3;
 
+/// Some rows of A (m × n, column-major): the first `rows`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    pub(crate) jacobian: &'a [f64],
+    /// m, the distance of columns.
+    pub(crate) stride: usize,
+    pub(crate) rows: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// All rows of an A that has so many.
+    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
+        let stride = rows;
+        Rows {
+            jacobian,
+            stride,
+            rows,
+        }
+    }
+
+    /// Entries of row `c`.
+    pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
+        let entries = self.jacobian.iter().skip(c);
+        entries.step_by(self.stride.max(1)).copied()
+    }
+
+    /// (A x)_c.
+    pub(crate) fn product(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| a * x).sum()
+    }
+
+    /// Σ |A_ci x_i|, the size of the terms of (A x)_c.
+    pub(crate) fn magnitude(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
+    }
+
+    /// max |A_ci| sᵢ, of coordinates with the [scale](crate::measure::Measure::scale) s.
+    pub(crate) fn largest(self, c: usize, scale: &[f64]) -> f64 {
+        let entries = self.row(c).zip(scale).map(|(a, s)| (a * s).abs());
+        entries.fold(0.0, f64::max)
+    }
+}
+
 /// Why M cannot serve as asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MassFault {
@@ -133,9 +176,7 @@ impl Metric {
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
-        jacobian: &[f64],
-        stride: usize,
-        rows: usize,
+        a: Rows<'_>,
         regular: impl Iterator<Item = usize>,
         measure: &[f64],
     ) -> Result<(), MassFault> {
@@ -144,17 +185,16 @@ impl Metric {
         possible(mass, n)?;
         let diagonal = self.root.iter_mut().zip(mass.iter().step_by(n + 1));
         diagonal.for_each(|(root, own)| *root = own.sqrt());
-        for c in regular.filter(|c| *c < rows) {
-            let row = || jacobian.iter().skip(c).step_by(stride);
+        for c in regular.filter(|c| *c < a.rows) {
             let (mut length, mut root) = (0.0_f64, 0.0_f64);
-            for ((a, own), unit) in row().zip(&self.root).zip(measure) {
-                if *a != 0.0 {
+            for ((a, own), unit) in a.row(c).zip(&self.root).zip(measure) {
+                if a != 0.0 {
                     length = length.hypot(a * unit);
                     root = root.hypot(own * unit);
                 }
             }
             if length > 0.0 {
-                let pairs = self.root.iter_mut().zip(row());
+                let pairs = self.root.iter_mut().zip(a.row(c));
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
             }
         }
@@ -163,10 +203,10 @@ impl Metric {
                 continue;
             }
             let mut root = 0.0_f64;
-            for c in 0..rows {
-                let entry = jacobian[j * stride + c].abs();
+            for c in 0..a.rows {
+                let entry = a.jacobian[j * a.stride + c].abs();
                 let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
-                let shares = massive.map(|i| (jacobian[i * stride + c] / self.root[i]).abs());
+                let shares = massive.map(|i| (a.jacobian[i * a.stride + c] / self.root[i]).abs());
                 let massive = shares.fold(0.0_f64, f64::max);
                 if massive > 0.0 {
                     root = root.max(entry / massive);
@@ -360,9 +400,7 @@ mod tests {
         assert_eq!(
             full.scale(
                 &[0.0, 1.0, 1.0, 1.0],
-                &no_rows,
-                0,
-                0,
+                Rows::all(&no_rows, 0),
                 std::iter::empty(),
                 &[1.0; 2]
             ),
