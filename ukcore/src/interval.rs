@@ -68,11 +68,6 @@ impl Interval {
         Interval::between(f(self.low), f(self.high))
     }
 
-    /// Of an even function that rises from 0 on.
-    fn even(self, f: fn(f64) -> f64) -> Self {
-        self.abs().rising(f)
-    }
-
     /// The sine of angles.
     fn sine(self) -> Self {
         if self.high - self.low >= TAU || !self.middle().is_finite() {
@@ -135,7 +130,7 @@ impl Scalar for Interval {
         Interval::exact(FRAC_PI_2) - self.asin()
     }
     fn cosh(self) -> Self {
-        self.even(f64::cosh)
+        self.abs().rising(f64::cosh)
     }
     /// It jumps where y changes its sign and x is negative.
     fn atan2(self, x: Self) -> Self {

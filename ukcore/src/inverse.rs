@@ -163,10 +163,7 @@ pub fn inverse_forces(
     let sizes = (inertial.abs() + given.abs()).component_mul(&units);
     let missing = (inertial - given).component_mul(&units);
     let free = null_space(rows, &units);
-    let mut acting = DMatrix::zeros(driven.len(), n);
-    for (k, j) in driven.iter().enumerate() {
-        acting[(k, *j)] = units[*j];
-    }
+    let acting = DMatrix::from_diagonal(&units).select_rows(&driven);
     let mut wanted = free.tr_mul(&missing);
     let rounding = NOTHING * sizes.sum();
     wanted.apply(|force| {

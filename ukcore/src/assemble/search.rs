@@ -75,8 +75,8 @@ impl Search {
         if at.level != Level::Position || parts.len() < 2 && !determined {
             return None;
         }
-        let found = ByParts::new(self, at, guess, &parts).found_nearest()?;
-        self.projected(at, found.x)
+        let (nearest, _) = ByParts::new(self, at, guess, &parts).found_nearest()?;
+        self.projected(at, nearest.x)
     }
 
     /// Where all solutions lie apart the nearest to the guess, and besides it those that are at most `times` as far, or `none`, in what
