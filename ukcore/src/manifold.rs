@@ -102,7 +102,8 @@ pub struct Correction {
 /// Projects states onto the constraints, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Projector {
-    mechanism: Prepared,
+    /// With the branches of switches that are held.
+    pub(crate) mechanism: Prepared,
     manifold: Manifold,
     /// Whether units are compared: those of the first state are kept.
     measured: bool,
@@ -233,11 +234,6 @@ impl Projector {
     #[must_use]
     pub fn mechanism(&self) -> &Prepared {
         &self.mechanism
-    }
-
-    /// Holds switch `switch` in `branch`, or follows it again.
-    pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
-        self.mechanism.hold(switch, branch);
     }
 }
 

@@ -143,7 +143,10 @@ pub(crate) use functions;
 
 /// Makes the operators of a number type, with its generic parameters, from functions of their operands.
 macro_rules! operators {
-    (@one [$($generic:tt)*] $S:ty, $Operator:ident $name:ident |$a:ident $(, $b:ident)?| $result:expr) => {
+    (
+        @one [$($generic:tt)*] $S:ty, $Operator:ident $name:ident
+        |$a:ident $(, $b:ident)?| $result:expr
+    ) => {
         impl<$($generic)*> std::ops::$Operator for $S {
             type Output = Self;
             #[inline]
@@ -153,7 +156,10 @@ macro_rules! operators {
             }
         }
     };
-    ($generics:tt $S:ty: $($Operator:ident $name:ident |$a:ident $(, $b:ident)?| $result:expr;)*) => {
+    (
+        $generics:tt $S:ty:
+        $($Operator:ident $name:ident |$a:ident $(, $b:ident)?| $result:expr;)*
+    ) => {
         $(operators!(@one $generics $S, $Operator $name |$a $(, $b)?| $result);)*
     };
 }

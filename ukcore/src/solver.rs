@@ -98,15 +98,8 @@ pub struct Solver {
     light: light::Light,
     /// Whether c is left out.
     ideal: bool,
-    dropping: Dropping,
-}
-
-/// Rank and formula of the evaluation in hand.
-#[derive(Debug, Clone, Copy)]
-struct Decided {
-    formula: Formula,
-    /// The tolerance that decided the rank.
-    tolerance: f64,
+    /// What it is told of projections, and which certificates of the emitted elimination it accepts.
+    pub(crate) dropping: Dropping,
 }
 
 impl Solver {
@@ -250,11 +243,11 @@ impl Solver {
 
     /// Accelerations by the rank-revealing solve.
     fn rank_revealing(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
-        let decided = self.decide(at)?;
+        let (formula, tolerance) = self.decide(at)?;
         self.apply_all_forces();
-        self.solve_for_force(decided.formula, out);
-        self.remember(decided.formula);
-        self.check(at, decided.tolerance, out)
+        self.solve_for_force(formula, out);
+        self.remember(formula);
+        self.check(at, tolerance, out)
     }
 
     /// Leaves c out of what [`Solver::solve`] solves: it may be no number where reactions are not, while constraints are what they are.
@@ -271,10 +264,10 @@ impl Solver {
         diagnose::inertias(&self.mechanism)?;
         let n = self.n;
         let mut ideal = vec![0.0; n];
-        let decided = self.decide((t, q, v))?;
+        let (formula, tolerance) = self.decide((t, q, v))?;
         self.force.copy_from_slice(&self.here.force);
-        self.solve_for_force(decided.formula, &mut ideal);
-        let mut ideal_force = if decided.formula == Formula::UdwadiaKalaba {
+        self.solve_for_force(formula, &mut ideal);
+        let mut ideal_force = if formula == Formula::UdwadiaKalaba {
             let mut force = self.dense.reaction.clone();
             self.dense.metric.multiply(&mut force);
             force
@@ -287,12 +280,12 @@ impl Solver {
         let mut nonideal_force = vec![0.0; n];
         if self.mechanism.spec().structure.nonideal {
             self.apply_all_forces();
-            self.solve_for_force(decided.formula, &mut acceleration);
+            self.solve_for_force(formula, &mut acceleration);
             let mut change = acceleration.clone();
             axpy(-1.0, &ideal, &mut change);
             nonideal_force = self.mass_times(&change);
         }
-        self.check((t, q, v), decided.tolerance, &acceleration)?;
+        self.check((t, q, v), tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
         self.dense
             .multipliers(&mut ideal_force.clone(), &mut multipliers);
@@ -309,7 +302,7 @@ impl Solver {
             multipliers,
             rank,
             degrees_of_freedom: n - rank,
-            formula: decided.formula,
+            formula,
             redundant,
         })
     }
@@ -321,14 +314,14 @@ impl Solver {
         acceleration: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<Formula, Error> {
-        let decided = self.decide(at)?;
+        let (formula, tolerance) = self.decide(at)?;
         self.apply_all_forces();
-        self.solve_for_force(decided.formula, acceleration);
-        self.check(at, decided.tolerance, acceleration)?;
+        self.solve_for_force(formula, acceleration);
+        self.check(at, tolerance, acceleration)?;
         let mut reaction = self.mass_times(acceleration);
         axpy(-1.0, &self.force, &mut reaction);
         self.dense.multipliers(&mut reaction, multipliers);
-        Ok(decided.formula)
+        Ok(formula)
     }
 
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].
@@ -380,26 +373,6 @@ impl Solver {
         &mut self.mechanism
     }
 
-    /// From here on each step of a run ends with a projection, which tells whether constraints are met that are left out within it.
-    pub(crate) fn project(&mut self) {
-        self.dropping.project();
-    }
-
-    /// From here on states drift off the constraints.
-    pub(crate) fn drift(&mut self) {
-        self.dropping.keep();
-    }
-
-    /// A step was projected, or could not be.
-    pub(crate) fn judge(&mut self, met: bool) {
-        self.dropping.judge(met);
-    }
-
-    /// The certificates of the emitted elimination with which it may be used in place of a solution.
-    pub(crate) fn accepted(&self) -> Accepted {
-        self.dropping.accepted
-    }
-
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {
@@ -414,8 +387,8 @@ impl Solver {
         y
     }
 
-    /// Evaluates, factors, and decides the rank.
-    fn decide(&mut self, (t, q, v): Given<'_>) -> Result<Decided, Error> {
+    /// Evaluates, factors, and decides the rank. Returns the formula, and the tolerance that decided.
+    fn decide(&mut self, (t, q, v): Given<'_>) -> Result<(Formula, f64), Error> {
         diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
@@ -451,8 +424,7 @@ impl Solver {
                 needed: self.n,
             });
         }
-        let formula = self.eliminate(formula);
-        Ok(Decided { formula, tolerance })
+        Ok((self.eliminate(formula), tolerance))
     }
 
     /// Factors M and A; the formula is then UdwadiaKalaba, UdwadiaPhohomsiri or Kkt.

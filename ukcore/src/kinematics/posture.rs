@@ -24,7 +24,8 @@ const ALONG: f64 = 0.95;
 const SAME: f64 = 1e-5;
 
 impl Curve<'_> {
-    /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`; `None` where the drive stands still.
+    /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`; `None` where the drive stands
+    /// still.
     ///
     /// # Errors
     /// [`Error::At`] with [`Error::OffConstraint`] where not all constraints are met, and with [`Error::NonFinite`].

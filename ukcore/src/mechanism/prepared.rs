@@ -33,7 +33,8 @@ impl<M: Mechanism, S: Scalar> Code<S> for Of<M> {
     }
 }
 
-/// A table of emitted functions, for numbers `S`: the trait, which each mechanism has, and the methods of [`Prepared`] that call through it.
+/// A table of emitted functions, for numbers `S`: the trait, which each mechanism has, and the methods of [`Prepared`] that call through
+/// it.
 macro_rules! table {
     ($(#[$about:meta])* $Table:ident: $Before:ident {
         $($(#[$doc:meta])* fn $name:ident($($x:ident: $X:ty),*) $(-> $out:ty)?;)*

@@ -26,7 +26,7 @@ pub(super) struct Independence {
     /// Rows that others do not imply.
     counts: Vec<bool>,
     /// Whether none is left out.
-    whole: bool,
+    pub(super) whole: bool,
     /// The lower triangle: for each term of S its place, its entries of A and its coordinate.
     terms: Vec<[u32; 4]>,
     /// Rows in the order of elimination, and where their columns of the factor begin and end.
@@ -88,11 +88,6 @@ impl Independence {
                 *weight = (share * share).recip();
             }
         }
-    }
-
-    /// Whether no row is left out that others imply.
-    pub(super) fn is_whole(&self) -> bool {
-        self.whole
     }
 
     /// Chooses the order of elimination, by least degree, and finds the places of the factor.

@@ -28,8 +28,8 @@ struct Row {
 /// What has become of the rows of A between two states.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Compared {
-    /// The largest change of a row, as a share of what it is at the last; and half of what such changes gain in as much time again, going on
-    /// to gain as they did since those before them.
+    /// The largest change of a row, as a share of what it is at the last; and half of what such changes gain in as much time again, going
+    /// on to gain as they did since those before them.
     pub(super) rows: [f64; 2],
     /// The same, of the entries of its own of a row that has some.
     pub(super) own: [f64; 2],

@@ -323,7 +323,7 @@ pub(super) fn explain(
     {
         *last += &format!("; {cause}");
     }
-    trouble.into_error()
+    trouble.state.locate(trouble.error)
 }
 
 /// The terms that divide by a length which is zero at a state.

@@ -20,11 +20,11 @@ pub(super) struct Recorder<'s> {
     pub(super) trajectory: Trajectory,
     /// For steps, and samples and events within them.
     pub(super) projector: Projector,
-    agenda: Agenda,
+    pub(super) agenda: Agenda,
     watch: Watch,
     /// Takes what is not to be kept, until it wants no more.
     sink: Option<Sink<'s>>,
-    handed: ControlFlow<()>,
+    pub(super) handed: ControlFlow<()>,
     /// Time of the last sample.
     sampled: Option<f64>,
     /// A state within a step.
@@ -56,16 +56,6 @@ impl<'s> Recorder<'s> {
         }
     }
 
-    /// Whether the sink wants no more.
-    pub(super) fn has_ended(&self) -> bool {
-        self.handed.is_break()
-    }
-
-    /// The next time at which an interpolant is wanted, if any.
-    pub(super) fn next_sample(&self) -> Option<f64> {
-        self.agenda.next()
-    }
-
     /// Events and sample at the start of the run.
     pub(super) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
         let count = self.integrals.as_ref().map_or(0, Integrals::len);
@@ -82,7 +72,7 @@ impl<'s> Recorder<'s> {
     /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of
     /// what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
-        let taken = self.agenda.taken();
+        let taken = self.agenda.taken;
         let Trajectory { ending, .. } = self.trajectory;
         let (samples, events) = (self.trajectory.len(), self.trajectory.events.len());
         let recorded = self.record(step);
@@ -136,7 +126,7 @@ impl<'s> Recorder<'s> {
         }
         let sign = if step.until < step.old.t { -1.0 } else { 1.0 };
         let passed = |t: &f64| sign * t <= sign * t_stop;
-        while let Some(t) = self.agenda.next().filter(passed) {
+        while let Some(t) = self.agenda.next.filter(passed) {
             within.consistent(t, between)?;
             self.agenda.take();
             let sums = sums(&mut self.integrals, &mut within, t)?;

@@ -55,7 +55,7 @@ impl Run<'_> {
             self.recorder.trajectory.ending = Ending::Completed;
             return Ok(());
         }
-        if self.recorder.has_ended() {
+        if self.recorder.handed.is_break() {
             self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok(());
         }
@@ -125,7 +125,7 @@ impl Problem for Run<'_> {
             return Ok(());
         }
         let result = self.recorder.project(t, q, v);
-        self.solver.judge(result.is_ok());
+        self.solver.dropping.judge(result.is_ok());
         result
     }
 
@@ -185,7 +185,7 @@ impl Problem for Run<'_> {
     }
 
     fn next_sample(&self) -> Option<f64> {
-        self.recorder.next_sample()
+        self.recorder.agenda.next
     }
 
     fn switches(&self) -> usize {
@@ -218,7 +218,7 @@ impl Problem for Run<'_> {
 
     fn set_branch(&mut self, k: usize, branch: Branch) {
         self.solver.mechanism_mut().hold(k, branch);
-        self.recorder.projector.hold(k, branch);
+        self.recorder.projector.mechanism.hold(k, branch);
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {
@@ -242,7 +242,7 @@ impl Problem for Run<'_> {
         if self.recorder.trajectory.ending == Ending::Event {
             return Ok((Next::Stop, error));
         }
-        if (go_on.is_break() || self.recorder.has_ended()) && end.t != self.t_end {
+        if (go_on.is_break() || self.recorder.handed.is_break()) && end.t != self.t_end {
             self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok((Next::Stop, error));
         }

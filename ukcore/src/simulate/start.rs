@@ -3,7 +3,7 @@
 use super::agenda::Agenda;
 use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
-use super::{START_BOUND, Simulation, angles, obstacles};
+use super::{START_BOUND, Simulation, obstacles};
 use crate::assemble::{Residuals, State};
 use crate::diagnose;
 use crate::error::Error;
@@ -17,6 +17,9 @@ use crate::trajectory::{Trajectory, Work};
 /// States between the ends of steps are off by some ten tolerances; so many times that much is expected at most, of RATTLE's of this one.
 const INTERPOLATED: f64 = 100.0;
 const RATTLE: f64 = 1e-5;
+
+/// An angle whose rounding is above this, in rad, is no angle any more: sines and cosines of it have lost two thirds of their digits.
+const BLUR: f64 = 1e-5;
 
 impl Simulation {
     /// What takes the records of a run to `t_end`, the consistent start, and what a method is to be told.
@@ -89,7 +92,7 @@ impl Simulation {
         let mech = &self.mechanism;
         start.check(mech)?;
         let State { t, q, v } = start;
-        angles::check(spec, &q)?;
+        check_angles(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
         let measure = Measure::at(mech, t, [&new_q, &v]);
@@ -154,6 +157,23 @@ impl Simulation {
             floors: floors.collect(),
         }
     }
+}
+
+/// An error where a coordinate in a sine, cosine or tangent of the equations is so large that it is rounded by more than [`BLUR`].
+/// An error control relative to the coordinate does not see it.
+fn check_angles(spec: &Spec, q: &[f64]) -> Result<(), Error> {
+    let rounding = |i: usize| q[i].abs() * f64::EPSILON;
+    let blurred = |i: &usize| rounding(*i) > BLUR;
+    let Some(i) = spec.structure.angles.iter().copied().find(blurred) else {
+        return Ok(());
+    };
+    let (name, x, rounding) = (spec.coords[i], q[i], rounding(i));
+    Err(Error::invalid(
+        "start",
+        format!(
+            "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
+        ),
+    ))
 }
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.

@@ -112,7 +112,7 @@ pub(super) struct RowWatch {
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
     /// When to look again.
-    due: f64,
+    pub(super) due: f64,
 }
 
 /// A at a time; there is none at NaN.
@@ -272,7 +272,7 @@ impl RowWatch {
                 continue;
             }
             if to - from <= 0.5_f64.powi(HALVINGS) {
-                let (states, whole) = (Box::new([at(from), at(to)]), independence.is_whole());
+                let (states, whole) = (Box::new([at(from), at(to)]), independence.whole);
                 return Some(Loss::Rank { states, whole });
             }
             let middle = 0.5 * (from + to);
@@ -287,7 +287,7 @@ impl RowWatch {
         }
         (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
             states: Box::new(least.1.map(at)),
-            whole: independence.is_whole(),
+            whole: independence.whole,
         })
     }
 
@@ -356,12 +356,6 @@ impl RowWatch {
             reached: least,
             rest: false,
         })
-    }
-
-    /// When rows are looked at next.
-    #[cfg(test)]
-    pub(super) fn due(&self) -> f64 {
-        self.due
     }
 
     fn scale(&self) -> Vec<f64> {
