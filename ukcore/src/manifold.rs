@@ -194,8 +194,8 @@ impl Projector {
         Ok(corrections)
     }
 
-    /// Moves q, the first of `moved`, onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; the other is the
-    /// sum of all moves, which is more exact than the difference of coordinates.
+    /// Moves q, the first of `moved`, onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; the other is
+    /// the sum of all moves, which is more exact than the difference of coordinates.
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
@@ -211,7 +211,8 @@ impl Projector {
 
     /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
     /// lets it: far from t = 0, far from the origin, or driven fast, that may be farther off than an error that is asked for. Leaves
-    /// `change` alone where that is unknown, and where without time in the equations it is more than rounding that rows beyond doubt amplify.
+    /// `change` alone where that is unknown, and where without time in the equations it is more than rounding that rows beyond doubt
+    /// amplify.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
@@ -237,7 +238,8 @@ impl Projector {
     }
 }
 
-/// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of it.
+/// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of
+/// it.
 const AMPLIFIED: f64 = 256.0 * f64::EPSILON;
 
 /// What all ways onto the constraints share, for one mechanism.

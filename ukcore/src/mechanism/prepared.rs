@@ -75,8 +75,8 @@ table! {
     Dynamics: Equations {
         /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
         fn switching(t: S, q: &[S], v: &[S], switching: &mut [S]);
-        /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps
-        /// it with the rank-revealing solve.
+        /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver)
+        /// wraps it with the rank-revealing solve.
         fn acceleration(t: S, q: &[S], v: &[S], out: &mut [S]) -> S;
     }
 }
