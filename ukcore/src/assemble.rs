@@ -95,6 +95,15 @@ pub struct Residuals {
 }
 
 impl Residuals {
+    /// Those of `mech` at (t, q, q̇).
+    pub(crate) fn at(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Self {
+        let spec = mech.spec();
+        let (mut position, mut velocity) = (vec![0.0; spec.holonomic], vec![0.0; spec.m()]);
+        mech.residual(t, q, &mut position);
+        mech.residual_rate(t, q, v, &mut velocity);
+        Residuals { position, velocity }
+    }
+
     /// Largest |φ|; 0 without holonomic constraints.
     #[must_use]
     pub fn largest_position(&self) -> f64 {
@@ -114,13 +123,8 @@ impl Residuals {
 /// [`Error::WrongLength`].
 pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residuals, Error> {
     let mech: Prepared = mechanism.into();
-    let spec = mech.spec();
     diagnose::check_lengths(&mech, &state.q, &state.v)?;
-    let mut position = vec![0.0; spec.holonomic];
-    let mut velocity = vec![0.0; spec.m()];
-    mech.residual(state.t, &state.q, &mut position);
-    mech.residual_rate(state.t, &state.q, &state.v, &mut velocity);
-    Ok(Residuals { position, velocity })
+    Ok(Residuals::at(&mech, state.t, &state.q, &state.v))
 }
 
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both

@@ -4,21 +4,19 @@
 //! where each ends, the nearest place to the guess is sought within its branch, by Gauss and Newton's method along the constraints.
 //! Distances are measured by the root of inertia, over the coordinates that the guess tells of.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search, State, assembled, held, scatter, weight};
 use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix, null_space_holding, quaternions, units};
+use crate::modes::{constraint_matrix, null_space_holding, quaternions, units};
 use crate::random::Random;
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
 
 mod walk;
-
-use walk::Walk;
 
 /// A state put together from a guess, and how else it could have been.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,16 +173,11 @@ impl Ways<'_> {
         let nearest = self.found.first().map_or(0.0, |way| way.distance);
         let bound = AS_NEAR * nearest.max(none);
         let near = self.found.iter().take_while(|way| way.distance <= bound);
-        let walk = Walk {
-            mech,
-            held: &self.held.positions,
-            places: &self.places,
-        };
         // What coordinates that stay free lead to is the same way, as a rod between balls that spins idly.
         let mut apart: Vec<Vec<f64>> = Vec::new();
         for Way { q, .. } in near {
             let mut known = apart.iter();
-            if !known.any(|known| walk.reaches(&mut search, &at, q, known)) {
+            if !known.any(|known| self.reaches(&mut search, &at, q, known)) {
                 apart.push(q.clone());
             }
         }
@@ -228,17 +221,12 @@ impl Ways<'_> {
             };
             let rows = constraint_matrix(self.mech, &here);
             let rows = rows.rows(0, self.mech.spec().holonomic).into_owned();
-            let mut ways = null_space_holding(&self.held.positions, rows, &self.units);
+            let ways = null_space_holding(&self.held.positions, rows, &self.units);
             if ways.is_empty() {
                 return;
             }
-            for (mut row, unit) in ways.row_iter_mut().zip(self.units.iter()) {
-                row *= *unit;
-            }
-            let mut weighed = ways.clone();
-            for (mut row, weight) in weighed.row_iter_mut().zip(self.weights.iter()) {
-                row *= *weight;
-            }
+            let ways = DMatrix::from_diagonal(&self.units) * ways;
+            let weighed = DMatrix::from_diagonal(&self.weights) * &ways;
             let wanted = DVector::from_fn(n, |j, _| self.weights[j] * (self.guess.q[j] - q[j]));
             let shares = singular(weighed, true, true).map(|svd| svd.solve(&wanted, 1e-12));
             let Some(Ok(shares)) = shares else {
@@ -315,8 +303,7 @@ struct Places {
 impl Places {
     /// Of places beside the one `at`.
     fn new(mech: &Prepared, at: &State, extents: Vec<f64>) -> Self {
-        let found = quaternions(mech, &mass_matrix(mech, at), &constraint_matrix(mech, at));
-        let found = found.into_iter().map(|(_, all)| all);
+        let found = quaternions(mech, at).into_iter().map(|(_, all)| all);
         Places {
             angles: mech.spec().structure.angles,
             quaternions: found.filter(|all| all.len() == 4).collect(),

@@ -12,9 +12,10 @@
 
 use crate::measure::Measure;
 use crate::mechanism::Evaluated;
-use crate::metric::{MassFault, Metric, pivoted_cholesky};
+pub(crate) use crate::metric::Rows;
+use crate::metric::{MassFault, Metric, divide, divide_transposed, pivoted_cholesky};
 use crate::pinv::Decomposition;
-use crate::scan::{axpy, dot, largest, or_one};
+use crate::scan::{axpy, dot, largest, or_one, place_of_largest};
 use crate::spec::Spec;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
@@ -23,49 +24,6 @@ const INERTIA_ROUNDING: f64 = 64.0;
 
 /// What is left of q̈ where it is not refined any more: the ratio of masses of any use is far above.
 const MOST_LEFT: f64 = 1e-60;
-
-/// Some rows of A (m × n, column-major): the first `rows`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Rows<'a> {
-    pub(crate) jacobian: &'a [f64],
-    /// m, the distance of columns.
-    pub(crate) stride: usize,
-    pub(crate) rows: usize,
-}
-
-impl<'a> Rows<'a> {
-    /// All rows of an A that has so many.
-    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
-        let stride = rows;
-        Rows {
-            jacobian,
-            stride,
-            rows,
-        }
-    }
-
-    /// Entries of row `c`.
-    pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
-        let entries = self.jacobian.iter().skip(c);
-        entries.step_by(self.stride.max(1)).copied()
-    }
-
-    /// (A x)_c.
-    pub(crate) fn product(self, c: usize, x: &[f64]) -> f64 {
-        self.row(c).zip(x).map(|(a, x)| a * x).sum()
-    }
-
-    /// Σ |A_ci x_i|, the size of the terms of (A x)_c.
-    pub(crate) fn magnitude(self, c: usize, x: &[f64]) -> f64 {
-        self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
-    }
-
-    /// max |A_ci| sᵢ, of coordinates with the [scale](Measure::scale) s.
-    pub(crate) fn largest(self, c: usize, scale: &[f64]) -> f64 {
-        let entries = self.row(c).zip(scale).map(|(a, s)| (a * s).abs());
-        entries.fold(0.0, f64::max)
-    }
-}
 
 impl Evaluated {
     /// All rows of A.
@@ -119,11 +77,6 @@ pub(crate) struct Dense {
 }
 
 impl Dense {
-    /// What makes the residuals of the rows comparable. A row of zeros has no scale: 0 = b.
-    pub(crate) fn residual_scale(&self) -> Vec<f64> {
-        self.row_scale.iter().copied().map(or_one).collect()
-    }
-
     /// Buffers for the mechanisms of a type.
     pub(crate) fn new(spec: &Spec) -> Self {
         let (n, m) = (spec.n(), spec.m());
@@ -174,14 +127,10 @@ impl Dense {
     ) -> Result<(), MassFault> {
         match route {
             Route::Regular => self.metric.factor(mass)?,
-            Route::Singular => (self.metric).scale(
-                mass,
-                a.jacobian,
-                a.stride,
-                a.rows,
-                self.regular.iter().copied().flatten().copied(),
-                &self.measure.scale,
-            )?,
+            Route::Singular => {
+                let regular = self.regular.iter().copied().flatten().copied();
+                self.metric.scale(mass, a, regular, &self.measure.scale)?;
+            }
         }
         let columns = self.cod.load(a.rows);
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {
@@ -195,17 +144,10 @@ impl Dense {
                 (self.row_scale[c], self.significance[c]) = (size.recip(), 1.0);
                 continue;
             }
-            // In two steps, so that rows of any magnitude have a norm.
-            let largest = largest(column);
-            self.row_scale[c] = 0.0;
-            self.significance[c] = 0.0;
-            if largest > 0.0 {
-                column.iter_mut().for_each(|x| *x /= largest);
-                let norm = dot(column, column).sqrt();
-                column.iter_mut().for_each(|x| *x /= norm);
-                self.row_scale[c] = (largest * norm).recip();
-                self.significance[c] = largest * norm / own;
-            }
+            (self.row_scale[c], self.significance[c]) = match normalise(column) {
+                0.0 => (0.0, 0.0),
+                norm => (norm.recip(), norm / own),
+            };
         }
         let pairs = self.metric.root.iter().zip(&self.measure.scale);
         let weights = self.weights.iter_mut().zip(pairs);
@@ -263,7 +205,7 @@ impl Dense {
         let rank = pivoted_cholesky(&mut self.inertia, order, floor);
         self.inertia_rank = rank.map_err(|lowest| {
             let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
-            MassFault::Indefinite(position_of_largest(column))
+            MassFault::Indefinite(place_of_largest(column))
         })?;
         Ok(())
     }
@@ -286,10 +228,7 @@ impl Dense {
         for j in k..d {
             // Null vector: 1 at j, and L₁₁ᵀ y = −(row j of L) above.
             let mut y: Vec<f64> = (0..k).map(|i| -self.inertia[i * d + j]).collect();
-            for i in (0..k).rev() {
-                let below = &self.inertia[i * d + i + 1..i * d + k];
-                y[i] = (y[i] - dot(below, &y[i + 1..])) / self.inertia[i * d + i];
-            }
+            divide_transposed(&self.inertia, d, &mut y);
             y.push(1.0);
             let mut direction = vec![0.0; n];
             let order = self.inertia_order[..k].iter();
@@ -401,25 +340,13 @@ impl Dense {
             }
             None => self.work.iter_mut().for_each(|x| *x = -*x),
         }
-        let z = &mut self.reduced;
-        for (i, z) in z[..k].iter_mut().enumerate() {
-            let o = self.inertia_order[i];
+        let z = &mut self.reduced[..k];
+        for (z, &o) in z.iter_mut().zip(&self.inertia_order) {
             *z = dot(&self.basis[o * n..(o + 1) * n], &self.work);
         }
-        for i in 0..k {
-            z[i] /= self.inertia[i * d + i];
-            let s = z[i];
-            axpy(
-                -s,
-                &self.inertia[i * d + i + 1..i * d + k],
-                &mut z[i + 1..k],
-            );
-        }
-        for i in (0..k).rev() {
-            let s = dot(&self.inertia[i * d + i + 1..i * d + k], &z[i + 1..k]);
-            z[i] = (z[i] - s) / self.inertia[i * d + i];
-        }
-        for (z, &o) in z[..k].iter().zip(&self.inertia_order) {
+        divide(&self.inertia, d, z);
+        divide_transposed(&self.inertia, d, z);
+        for (z, &o) in z.iter().zip(&self.inertia_order) {
             axpy(*z, &self.basis[o * n..(o + 1) * n], out);
         }
         self.metric.divide(out);
@@ -486,13 +413,16 @@ impl Dense {
     }
 }
 
-fn normalise(x: &mut [f64]) {
+/// Divides x by its norm, which it returns, unless that is 0; in two steps, so that numbers of any magnitude have one.
+fn normalise(x: &mut [f64]) -> f64 {
     let largest = largest(x);
-    if largest > 0.0 {
-        x.iter_mut().for_each(|x| *x /= largest);
-        let norm = dot(x, x).sqrt();
-        x.iter_mut().for_each(|x| *x /= norm);
+    if largest == 0.0 {
+        return 0.0;
     }
+    x.iter_mut().for_each(|x| *x /= largest);
+    let norm = dot(x, x).sqrt();
+    x.iter_mut().for_each(|x| *x /= norm);
+    largest * norm
 }
 
 /// y = M̂ x = L⁻¹ M L⁻¹ x for a diagonal L.
@@ -505,8 +435,4 @@ fn weigh(mass: &[f64], metric: &Metric, x: &[f64], y: &mut [f64]) {
         }
     }
     metric.divide(y);
-}
-
-fn position_of_largest(x: &[f64]) -> usize {
-    (0..x.len()).fold(0, |b, i| if x[i].abs() > x[b].abs() { i } else { b })
 }

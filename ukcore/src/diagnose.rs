@@ -22,9 +22,14 @@ pub(crate) fn participating(spec: &Spec, shares: &[f64]) -> Vec<String> {
         .collect()
 }
 
-/// Names and residuals of the constraints whose scaled residual (`residual` · `scale`) is significant.
-pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(String, f64)> {
-    let scaled = || residual.iter().zip(scale).map(|(r, s)| (r * s).abs());
+/// Names and residuals of the constraints c whose scaled residual, times `scale(c)`, is significant.
+pub(crate) fn offending(
+    spec: &Spec,
+    residual: &[f64],
+    scale: impl Fn(usize) -> f64,
+) -> Vec<(String, f64)> {
+    let residuals = || residual.iter().enumerate();
+    let scaled = || residuals().map(|(c, r)| (r * scale(c)).abs());
     let largest = scaled().fold(0.0_f64, f64::max);
     let rows = spec.constraints.iter().zip(residual).zip(scaled());
     rows.filter(|(_, s)| *s >= PARTICIPATION * largest || s.is_nan())

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::assemble::State;
 use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
-use crate::mechanism::{Evaluated, Prepared};
+use crate::mechanism::Prepared;
 use crate::modes::{
     INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
 };
@@ -114,7 +114,7 @@ pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnos
         only_here.clone_from(&follow);
         only_here.retain(|row| !remain.contains(row));
     }
-    let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
+    let free = free(&rows, &follow);
     let (margin, nearest) = match only_here.is_empty() {
         true => margin(&apart_from_lengths(&mech, state, rows.clone()), &free),
         false => (0.0, only_here.clone()),
@@ -149,10 +149,7 @@ pub fn diagnose_along(
     let mut nearest: Option<(usize, f64, State)> = None;
     for state in states {
         let found = independent(&mut solver, &state).map(|(rank, rows)| {
-            let follow = implied(&relations(&rows, rank));
-            let free: Vec<usize> = (0..mech.spec().m())
-                .filter(|row| !follow.contains(row))
-                .collect();
+            let free = free(&rows, &implied(&relations(&rows, rank)));
             let rows = apart_from_lengths(&mech, &state, rows);
             (rank, margin(&rows, &free).0)
         });
@@ -169,16 +166,12 @@ pub fn diagnose_along(
 }
 
 /// The coordinates whose declared inertia is zero at `state`.
-fn without_inertia(mech: &Prepared, State { t, q, v }: &State) -> Option<String> {
+fn without_inertia(mech: &Prepared, state: &State) -> Option<String> {
     let spec = mech.spec();
-    let mut here = Evaluated::new(spec.n(), spec.m());
-    here.dynamics(mech, *t, q, v);
-    let mass = DMatrix::from_vec(spec.n(), spec.n(), here.mass);
-    let rows = DMatrix::from_vec(spec.m(), spec.n(), here.jacobian);
     // No orientation has inertia along its quaternion, which is a coordinate's own direction where axes agree.
-    let lengths = quaternions(mech, &mass, &rows);
+    let lengths = quaternions(mech, state);
     let own = |i: &usize| lengths.iter().any(|(_, all)| all.contains(i));
-    let diagonal = mass.diagonal();
+    let diagonal = mass_matrix(mech, state).diagonal();
     let diagonal = diagonal.iter().enumerate();
     let gone =
         diagonal.filter(|(i, m)| **m == 0.0 && !spec.structure.massless.contains(i) && !own(i));
@@ -238,11 +231,7 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
     let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
     let mut bodies: Vec<&str> = (0..spec.n()).filter_map(body).collect();
     bodies.dedup();
-    let lengths = quaternions(
-        mech,
-        &mass_matrix(mech, state),
-        &constraint_matrix(mech, state),
-    );
+    let lengths = quaternions(mech, state);
     let pattern = spec.structure.jacobian_pattern;
     let ways = |name: &&str| {
         let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
@@ -307,8 +296,7 @@ pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
 /// Rows of A at `state`, measured and of length 1, but what they say of the lengths of quaternions, which the constraints of these keep: it
 /// depends on how a row is written, and beside these constraints on the orientation.
 fn apart_from_lengths(mech: &Prepared, state: &State, mut rows: DMatrix<f64>) -> DMatrix<f64> {
-    let mass = mass_matrix(mech, state);
-    for (own, _) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+    for (own, _) in quaternions(mech, state) {
         let along = rows.row(own).into_owned();
         for (_, mut row) in rows.row_iter_mut().enumerate().filter(|(c, _)| *c != own) {
             row -= &along * row.dot(&along);
@@ -365,6 +353,12 @@ fn implied(relations: &[Relation]) -> Vec<usize> {
     relations.iter().map(|relation| relation.row).collect()
 }
 
+/// Those of `rows` that do not `follow` from others.
+fn free(rows: &DMatrix<f64>, follow: &[usize]) -> Vec<usize> {
+    let all = 0..rows.nrows();
+    all.filter(|row| !follow.contains(row)).collect()
+}
+
 /// What the rows before each of `rows`, of which `rank` are independent, imply of it: so many relations as there are more rows than that.
 pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     let (m, n) = rows.shape();
@@ -390,7 +384,7 @@ pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
     kept.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
     let mut implied: Vec<usize> = kept[..m - rank].iter().map(|(_, i)| *i).collect();
     implied.sort_unstable();
-    let free: Vec<usize> = (0..m).filter(|i| !implied.contains(i)).collect();
+    let free = free(rows, &implied);
     let factored = (!free.is_empty())
         .then(|| singular(rows.select_rows(&free).transpose(), true, true))
         .flatten();

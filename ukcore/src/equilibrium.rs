@@ -282,10 +282,7 @@ impl Search {
             let n = self.mech.spec().n();
             let found = Linearisation::at(&self.mech, &here.state)?;
             let slope = DMatrix::from_vec(n, n, found.by_position);
-            let mut scaled = here.basis.clone();
-            for (mut row, unit) in scaled.row_iter_mut().zip(here.units.iter()) {
-                row *= *unit;
-            }
+            let scaled = DMatrix::from_diagonal(&here.units) * &here.basis;
             return Ok(-scaled.tr_mul(&(&here.mass * (slope * &scaled))));
         }
         let freedoms = here.force.len();

@@ -197,10 +197,8 @@ impl Watch {
                     states.consistent(t, state)?;
                     evaluate(event, Sample::of(t, state))
                 };
-                let sign = match crossing.direction {
-                    Direction::Falling => -1.0,
-                    Direction::Rising | Direction::Both => 1.0,
-                };
+                let falls = crossing.direction == Direction::Falling;
+                let sign = if falls { -1.0 } else { 1.0 };
                 crossing.t = locate(|t| Ok(sign * g(t)?), a, b)?;
             }
             let sign = if t < t_old { -1.0 } else { 1.0 };

@@ -214,8 +214,8 @@ fn structure(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
     writeln!(f, "  explicit time: {}", yes_no(!s.scleronomic))?;
     writeln!(f, "  energy conserved: {}", yes_no(s.conservative))?;
     if !s.massless.is_empty() {
-        let names = s.massless.iter().map(|&i| spec.coords[i]);
-        writeln!(f, "  without mass: {}", listed(names))?;
+        let names: Vec<&str> = s.massless.iter().map(|&i| spec.coords[i]).collect();
+        writeln!(f, "  without mass: {}", names.join(", "))?;
     }
     Ok(())
 }
@@ -244,10 +244,6 @@ fn at_start(f: &mut Formatter<'_>, spec: &Spec, start: &Start) -> fmt::Result {
         writeln!(f, "    {name:<wide$} {:>14}", fixed(*value, DIGITS))?;
     }
     Ok(())
-}
-
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

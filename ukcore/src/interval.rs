@@ -1,10 +1,9 @@
 //! Where the values of a function lie while its arguments vary: emitted code run on intervals.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::Scalar;
 use crate::scalar::tape::player;
+use crate::scalar::{Scalar, operators};
 
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
@@ -69,11 +68,6 @@ impl Interval {
         Interval::between(f(self.low), f(self.high))
     }
 
-    /// Of an even function that rises from 0 on.
-    fn even(self, f: fn(f64) -> f64) -> Self {
-        self.abs().rising(f)
-    }
-
     /// The sine of angles.
     fn sine(self) -> Self {
         if self.high - self.low >= TAU || !self.middle().is_finite() {
@@ -93,41 +87,15 @@ fn product(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }
 
-impl Add for Interval {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Interval::between(self.low + o.low, self.high + o.high)
-    }
-}
-impl Sub for Interval {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + -o
-    }
-}
-impl Mul for Interval {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        self.times(o)
-    }
-}
-impl Div for Interval {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        if o.has(0.0) {
-            return ALL;
-        }
-        self.times(Interval::between(o.high.recip(), o.low.recip()))
-    }
-}
-impl Neg for Interval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Interval {
-            low: -self.high,
-            high: -self.low,
-        }
-    }
+operators! { [] Interval:
+    Add add |a, b| Interval::between(a.low + b.low, a.high + b.high);
+    Sub sub |a, b| a + -b;
+    Mul mul |a, b| a.times(b);
+    Div div |a, b| match b.has(0.0) {
+        true => ALL,
+        false => a.times(Interval::between(b.high.recip(), b.low.recip())),
+    };
+    Neg neg |a| Interval { low: -a.high, high: -a.low };
 }
 
 macro_rules! rising {
@@ -162,7 +130,7 @@ impl Scalar for Interval {
         Interval::exact(FRAC_PI_2) - self.asin()
     }
     fn cosh(self) -> Self {
-        self.even(f64::cosh)
+        self.abs().rising(f64::cosh)
     }
     /// It jumps where y changes its sign and x is negative.
     fn atan2(self, x: Self) -> Self {

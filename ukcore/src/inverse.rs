@@ -7,6 +7,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, measure, null_space, units};
+use crate::scan::largest;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum::singular;
 
@@ -162,10 +163,7 @@ pub fn inverse_forces(
     let sizes = (inertial.abs() + given.abs()).component_mul(&units);
     let missing = (inertial - given).component_mul(&units);
     let free = null_space(rows, &units);
-    let mut acting = DMatrix::zeros(driven.len(), n);
-    for (k, j) in driven.iter().enumerate() {
-        acting[(k, *j)] = units[*j];
-    }
+    let acting = DMatrix::from_diagonal(&units).select_rows(&driven);
     let mut wanted = free.tr_mul(&missing);
     let rounding = NOTHING * sizes.sum();
     wanted.apply(|force| {
@@ -213,8 +211,8 @@ impl Prepared {
         let mut moves = vec![false; spec.m()];
         let rest = vec![0.0; spec.n()];
         // At the state by itself a drive may vanish, as that of a turntable does along its radius.
-        let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
-        let beside = |(k, q): (usize, &f64)| q + BESIDE * (1.0 + (k % 7) as f64) * size.max(1.0);
+        let size = largest(&state.q).max(1.0);
+        let beside = |(k, q): (usize, &f64)| q + BESIDE * (1.0 + (k % 7) as f64) * size;
         let beside: Vec<f64> = state.q.iter().enumerate().map(beside).collect();
         for t in times {
             for q in [&state.q, &beside] {

@@ -53,10 +53,10 @@ impl Linearisation {
         let State { t, q, v } = state;
         // Also checks the state.
         solver.acceleration(*t, q, v, &mut acceleration)?;
-        let mut columns = vec![0.0; n * directions(spec)];
+        let names = names(spec);
+        let mut columns = vec![0.0; n * names.len()];
         let mut all = Columns::new(solver.mechanism());
         all.fill(&mut solver, (*t, q, v), &mut acceleration, &mut columns)?;
-        let names = names(spec);
         let broken = names.iter().zip(columns.chunks_exact(n));
         let broken = broken.filter(|(_, column)| !all_finite(column));
         let what: Vec<String> = broken
@@ -108,11 +108,6 @@ fn names(spec: &Spec) -> Vec<String> {
     all.chain(["t".to_owned()]).collect()
 }
 
-/// Number of directions.
-fn directions(spec: &Spec) -> usize {
-    2 * spec.n() + spec.params.len() + 1
-}
-
 /// Directions of a sweep.
 const AT_ONCE: usize = Slopes::COUNT;
 
@@ -148,7 +143,9 @@ impl Columns {
         self.sweep.mech.hold_as(solver.mechanism());
         let spec = solver.mechanism().spec();
         let straight = spec.structure.straight_line && solver.baumgarte().is_none();
-        if straight && self.straight_line(solver.accepted(), (t, q, v), acceleration, columns) {
+        if straight
+            && self.straight_line(solver.dropping.accepted, (t, q, v), acceleration, columns)
+        {
             return Ok(());
         }
         let implicit = self.implicit.get_or_insert_with(|| Implicit::new(spec));
@@ -264,7 +261,7 @@ impl Implicit {
         columns: &mut [f64],
     ) -> Result<(), Error> {
         let (acceleration, multipliers) = (&mut self.acceleration, &mut self.multipliers);
-        let formula = solver.balance(t, q, v, acceleration, multipliers)?;
+        let formula = solver.balance((t, q, v), acceleration, multipliers)?;
         for (k, columns) in columns.chunks_mut(q.len() * AT_ONCE).enumerate() {
             sweep.aim(t, q, v, k * AT_ONCE);
             self.evaluate(sweep, solver.baumgarte());

@@ -102,7 +102,8 @@ pub struct Correction {
 /// Projects states onto the constraints, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Projector {
-    mechanism: Prepared,
+    /// With the branches of switches that are held.
+    pub(crate) mechanism: Prepared,
     manifold: Manifold,
     /// Whether units are compared: those of the first state are kept.
     measured: bool,
@@ -193,8 +194,8 @@ impl Projector {
         Ok(corrections)
     }
 
-    /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
-    /// which is more exact than the difference of coordinates.
+    /// Moves q, the first of `moved`, onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; the other is
+    /// the sum of all moves, which is more exact than the difference of coordinates.
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
@@ -202,16 +203,16 @@ impl Projector {
         &mut self,
         t: f64,
         base: &[f64],
-        q: &mut [f64],
-        shift: &mut [f64],
+        moved: [&mut [f64]; 2],
     ) -> Result<Correction, Error> {
         let at = At::new(&self.mechanism, Level::Position, t, base);
-        self.manifold.reach(&at, q, shift)
+        self.manifold.reach(&at, moved)
     }
 
     /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
     /// lets it: far from t = 0, far from the origin, or driven fast, that may be farther off than an error that is asked for. Leaves
-    /// `change` alone where that is unknown, and where without time in the equations it is more than rounding that rows beyond doubt amplify.
+    /// `change` alone where that is unknown, and where without time in the equations it is more than rounding that rows beyond doubt
+    /// amplify.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
@@ -235,14 +236,10 @@ impl Projector {
     pub fn mechanism(&self) -> &Prepared {
         &self.mechanism
     }
-
-    /// Holds switch `switch` in `branch`, or follows it again.
-    pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
-        self.mechanism.hold(switch, branch);
-    }
 }
 
-/// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of it.
+/// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of
+/// it.
 const AMPLIFIED: f64 = 256.0 * f64::EPSILON;
 
 /// What all ways onto the constraints share, for one mechanism.
@@ -285,23 +282,16 @@ impl Manifold {
             return Ok(Correction::default());
         }
         self.start.copy_from_slice(x);
-        let mut count = None;
         if at.straight_line() && self.newton.acceptance.ease.is_empty() {
             let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
             if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
-                count = Some(steps);
-            } else {
-                x.copy_from_slice(&self.start);
+                return Ok(self.correction(x, steps));
             }
+            x.copy_from_slice(&self.start);
         }
-        let count = match count {
-            Some(count) => count,
-            None => {
-                let steps = self.reveal(at, x);
-                steps.inspect_err(|_| x.copy_from_slice(&self.start))?
-            }
-        };
-        Ok(self.correction(x, count))
+        let steps = self.reveal(at, x);
+        let steps = steps.inspect_err(|_| x.copy_from_slice(&self.start))?;
+        Ok(self.correction(x, steps))
     }
 
     /// What `count` steps to `x` have done.
@@ -322,8 +312,7 @@ impl Manifold {
     fn reach(
         &mut self,
         at: &At<'_, f64>,
-        q: &mut [f64],
-        shift: &mut [f64],
+        [q, shift]: [&mut [f64]; 2],
     ) -> Result<Correction, Error> {
         shift.fill(0.0);
         if at.rows() == 0 {
@@ -408,14 +397,14 @@ impl Manifold {
         if !all_finite(residual) {
             return at.non_finite(x, residual);
         }
-        let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
+        let mut violations = vec![0.0; residual.len()];
         for c in self.newton.violated(at) {
             violations[c] = residual[c];
-            scale[c] = self.newton.acceptance.scale(c).recip();
         }
+        let scale = |c: usize| self.newton.acceptance.scale(c).recip();
         Error::OffConstraint {
             level: at.level.name(),
-            constraints: diagnose::offending(at.mech.spec(), &violations, &scale),
+            constraints: diagnose::offending(at.mech.spec(), &violations, scale),
         }
     }
 

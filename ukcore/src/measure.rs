@@ -9,6 +9,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::mechanism::Prepared;
+use crate::scan::largest_by;
 use crate::spec::Spec;
 
 /// Where A is looked at beside a state, angles are turned by this much, and by this much more for each of the next few; quaternions by this
@@ -154,8 +155,7 @@ impl Measure {
 
     /// max |xᵢ|/sᵢ, the size of coordinates or velocities.
     pub(crate) fn size(&self, x: &[f64]) -> f64 {
-        let sizes = x.iter().zip(&self.scale).map(|(x, s)| x.abs() / s);
-        sizes.fold(0.0, f64::max)
+        largest_by(x, &self.scale)
     }
 
     /// The size of a turn by a radian, the largest of all angles; 0 where there is no angle.

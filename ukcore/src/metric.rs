@@ -13,6 +13,49 @@ const PIVOT_ROUNDING: f64 = 256.0;
 /// with interchanges decides: without them a nearly massless coordinate that stands first spoils the pivots after it.
 const DOUBT: f64 = 1e-3;
 
+/// Some rows of A (m × n, column-major): the first `rows`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    pub(crate) jacobian: &'a [f64],
+    /// m, the distance of columns.
+    pub(crate) stride: usize,
+    pub(crate) rows: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// All rows of an A that has so many.
+    pub(crate) fn all(jacobian: &'a [f64], rows: usize) -> Self {
+        let stride = rows;
+        Rows {
+            jacobian,
+            stride,
+            rows,
+        }
+    }
+
+    /// Entries of row `c`.
+    pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
+        let entries = self.jacobian.iter().skip(c);
+        entries.step_by(self.stride.max(1)).copied()
+    }
+
+    /// (A x)_c.
+    pub(crate) fn product(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| a * x).sum()
+    }
+
+    /// Σ |A_ci x_i|, the size of the terms of (A x)_c.
+    pub(crate) fn magnitude(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
+    }
+
+    /// max |A_ci| sᵢ, of coordinates with the [scale](crate::measure::Measure::scale) s.
+    pub(crate) fn largest(self, c: usize, scale: &[f64]) -> f64 {
+        let entries = self.row(c).zip(scale).map(|(a, s)| (a * s).abs());
+        entries.fold(0.0, f64::max)
+    }
+}
+
 /// Why M cannot serve as asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MassFault {
@@ -105,17 +148,8 @@ impl Metric {
     fn classify(&mut self, mass: &[f64]) -> Result<(), MassFault> {
         let n = self.n;
         let floor = PIVOT_ROUNDING * n as f64 * f64::EPSILON;
-        let mut zero = None;
-        for i in 0..n {
-            let own = mass[i * n + i];
-            if own < 0.0 || (own == 0.0 && coupled(mass, n, i)) {
-                return Err(MassFault::Indefinite(i));
-            }
-            if own == 0.0 {
-                zero = Some(i);
-            }
-        }
-        if let Some(i) = zero {
+        possible(mass, n)?;
+        if let Some(i) = (0..n).rfind(|i| mass[i * n + i] == 0.0) {
             return Err(MassFault::Singular(i));
         }
         for j in 0..n {
@@ -142,32 +176,25 @@ impl Metric {
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
-        jacobian: &[f64],
-        stride: usize,
-        rows: usize,
+        a: Rows<'_>,
         regular: impl Iterator<Item = usize>,
         measure: &[f64],
     ) -> Result<(), MassFault> {
         let n = self.n;
         self.kind = Kind::Scales;
-        for i in 0..n {
-            let own = mass[i * n + i];
-            if own < 0.0 || (own == 0.0 && coupled(mass, n, i)) {
-                return Err(MassFault::Indefinite(i));
-            }
-            self.root[i] = own.sqrt();
-        }
-        for c in regular.filter(|c| *c < rows) {
-            let row = || jacobian.iter().skip(c).step_by(stride);
+        possible(mass, n)?;
+        let diagonal = self.root.iter_mut().zip(mass.iter().step_by(n + 1));
+        diagonal.for_each(|(root, own)| *root = own.sqrt());
+        for c in regular.filter(|c| *c < a.rows) {
             let (mut length, mut root) = (0.0_f64, 0.0_f64);
-            for ((a, own), unit) in row().zip(&self.root).zip(measure) {
-                if *a != 0.0 {
+            for ((a, own), unit) in a.row(c).zip(&self.root).zip(measure) {
+                if a != 0.0 {
                     length = length.hypot(a * unit);
                     root = root.hypot(own * unit);
                 }
             }
             if length > 0.0 {
-                let pairs = self.root.iter_mut().zip(row());
+                let pairs = self.root.iter_mut().zip(a.row(c));
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
             }
         }
@@ -176,10 +203,10 @@ impl Metric {
                 continue;
             }
             let mut root = 0.0_f64;
-            for c in 0..rows {
-                let entry = jacobian[j * stride + c].abs();
+            for c in 0..a.rows {
+                let entry = a.jacobian[j * a.stride + c].abs();
                 let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
-                let shares = massive.map(|i| (jacobian[i * stride + c] / self.root[i]).abs());
+                let shares = massive.map(|i| (a.jacobian[i * a.stride + c] / self.root[i]).abs());
                 let massive = shares.fold(0.0_f64, f64::max);
                 if massive > 0.0 {
                     root = root.max(entry / massive);
@@ -200,12 +227,7 @@ impl Metric {
     /// x ← L⁻¹ x.
     pub(crate) fn divide(&self, x: &mut [f64]) {
         if self.kind == Kind::Full {
-            let n = self.n;
-            for i in 0..n {
-                x[i] /= self.root[i];
-                let s = x[i];
-                axpy(-s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
-            }
+            divide(&self.l, self.n, x);
         } else {
             x.iter_mut().zip(&self.root).for_each(|(x, l)| *x /= l);
         }
@@ -214,11 +236,7 @@ impl Metric {
     /// x ← L⁻ᵀ x.
     pub(crate) fn divide_transposed(&self, x: &mut [f64]) {
         if self.kind == Kind::Full {
-            let n = self.n;
-            for i in (0..n).rev() {
-                let s = dot(&self.l[i * n + i + 1..(i + 1) * n], &x[i + 1..]);
-                x[i] = (x[i] - s) / self.root[i];
-            }
+            divide_transposed(&self.l, self.n, x);
         } else {
             self.divide(x);
         }
@@ -287,13 +305,35 @@ pub(crate) fn pivoted_cholesky(
     Ok(d)
 }
 
-/// Whether coordinate i, without inertia of its own, is coupled to the inertia of another by more than rounding or underflow
-/// explains (|M_ij| against M_jj), which no positive semidefinite M allows.
-fn coupled(mass: &[f64], n: usize, i: usize) -> bool {
-    (0..n).filter(|j| *j != i).any(|j| {
-        let entry = mass[j * n + i].abs().max(mass[i * n + j].abs());
-        entry > f64::EPSILON * mass[j * n + j].abs()
-    })
+/// x ← L⁻¹ x, with the first rows and columns of a lower triangular L, whose columns are `stride` apart.
+pub(crate) fn divide(l: &[f64], stride: usize, x: &mut [f64]) {
+    for i in 0..x.len() {
+        let column = &l[i * stride..i * stride + x.len()];
+        x[i] /= column[i];
+        axpy(-x[i], &column[i + 1..], &mut x[i + 1..]);
+    }
+}
+
+/// x ← L⁻ᵀ x.
+pub(crate) fn divide_transposed(l: &[f64], stride: usize, x: &mut [f64]) {
+    for i in (0..x.len()).rev() {
+        let column = &l[i * stride..i * stride + x.len()];
+        x[i] = (x[i] - dot(&column[i + 1..], &x[i + 1..])) / column[i];
+    }
+}
+
+/// An error where a coordinate has a negative inertia, or, without one of its own, is coupled to that of another by more than rounding or
+/// underflow explains (|M_ij| against M_jj), which no positive semidefinite M allows.
+fn possible(mass: &[f64], n: usize) -> Result<(), MassFault> {
+    let coupled = |i: usize| {
+        (0..n).filter(|j| *j != i).any(|j| {
+            let entry = mass[j * n + i].abs().max(mass[i * n + j].abs());
+            entry > f64::EPSILON * mass[j * n + j].abs()
+        })
+    };
+    let own = |i: usize| mass[i * n + i];
+    let fault = (0..n).find(|i| own(*i) < 0.0 || own(*i) == 0.0 && coupled(*i));
+    fault.map_or(Ok(()), |i| Err(MassFault::Indefinite(i)))
 }
 
 #[cfg(test)]
@@ -360,9 +400,7 @@ mod tests {
         assert_eq!(
             full.scale(
                 &[0.0, 1.0, 1.0, 1.0],
-                &no_rows,
-                0,
-                0,
+                Rows::all(&no_rows, 0),
                 std::iter::empty(),
                 &[1.0; 2]
             ),

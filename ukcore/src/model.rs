@@ -155,7 +155,7 @@ impl Entry {
     pub fn plain<M: Mechanism>() -> Self {
         Entry {
             id: kebab_case(M::SPEC.name),
-            summary: first_line(M::SPEC.doc),
+            summary: M::SPEC.doc.trim().lines().next().unwrap_or_default().trim(),
             mechanism: M::default().prepared(),
             starts: M::SPEC.starts,
             variations: &[],
@@ -269,10 +269,6 @@ pub fn kebab_case(name: &str) -> String {
         text.extend(letter.to_lowercase());
     }
     text.replace("_", "-").replace("--", "-")
-}
-
-fn first_line(doc: &'static str) -> &'static str {
-    doc.trim().lines().next().unwrap_or_default().trim()
 }
 
 #[cfg(test)]

@@ -69,10 +69,9 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
     let units = units(&mech, state);
-    let jacobian = constraint_matrix(&mech, state);
     steady(&mech, &found, state, &units)?;
     let (flow, pace) = flow(&found, &units);
-    let tangent = tangent(&mech, state, &jacobian, &units, pace);
+    let tangent = tangent(&mech, state, &units, pace);
     if tangent.ncols() == 0 {
         return Ok(Vec::new());
     }
@@ -240,7 +239,7 @@ const LIGHTEST: f64 = 1e-12;
 pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
     let mass = mass_matrix(mech, state);
     let mut inertia = mass.diagonal();
-    for (_, all) in quaternions(mech, &mass, &constraint_matrix(mech, state)) {
+    for (_, all) in quaternions(mech, state) {
         let whole: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
         let mean = whole / (all.len() - 1) as f64;
         all.iter().for_each(|j| inertia[*j] = mean);
@@ -255,13 +254,10 @@ pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
 /// A product with M is none below this share of what its factors could make.
 const WEIGHTLESS: f64 = 1e-12;
 
-/// The constraints that keep the length of a quaternion, with its coordinates, where A has the entries `rows`: along their gradient nothing
-/// has inertia, as the kinetic energy of a body knows nothing of the quaternion's length.
-pub(crate) fn quaternions(
-    mech: &Prepared,
-    mass: &DMatrix<f64>,
-    rows: &DMatrix<f64>,
-) -> Vec<(usize, Vec<usize>)> {
+/// The constraints that keep the length of a quaternion, with its coordinates, at `state`: along their gradient nothing has inertia, as the
+/// kinetic energy of a body knows nothing of the quaternion's length.
+pub(crate) fn quaternions(mech: &Prepared, state: &State) -> Vec<(usize, Vec<usize>)> {
+    let (mass, rows) = (mass_matrix(mech, state), constraint_matrix(mech, state));
     let Structure {
         solve,
         jacobian_pattern,
@@ -274,7 +270,7 @@ pub(crate) fn quaternions(
     let weightless = |(c, all): &(usize, Vec<usize>)| {
         let inertia: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
         let size = all.iter().fold(0.0_f64, |sum, j| sum.hypot(rows[(*c, *j)]));
-        let force = mass * rows.row(*c).transpose();
+        let force = &mass * rows.row(*c).transpose();
         let mut forces = force.iter().enumerate();
         let none = forces.all(|(i, f)| {
             f.abs() <= WEIGHTLESS * size * (inertia * mass[(i, i)].max(inertia)).sqrt()
@@ -393,21 +389,14 @@ fn steady(
     Ok(())
 }
 
-/// An orthonormal basis of the deviations that meet the constraints, of which A is `jacobian`, in `units` and times of which `pace` are a
-/// second.
-fn tangent(
-    mech: &Prepared,
-    state: &State,
-    jacobian: &DMatrix<f64>,
-    units: &DVector<f64>,
-    pace: f64,
-) -> DMatrix<f64> {
-    let spec = mech.spec();
+/// An orthonormal basis of the deviations that meet the constraints, in `units` and times of which `pace` are a second.
+fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>, pace: f64) -> DMatrix<f64> {
+    let (spec, jacobian) = (mech.spec(), constraint_matrix(mech, state));
     let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
     let mut rows = DMatrix::zeros(h + m, 2 * n);
     rows.view_mut((0, 0), (h, n))
         .copy_from(&jacobian.rows(0, h));
-    rows.view_mut((h, n), (m, n)).copy_from(jacobian);
+    rows.view_mut((h, n), (m, n)).copy_from(&jacobian);
     let sloped = mech.sloped();
     let mut rate = vec![Sloped::from_f64(0.0); m];
     let v: Vec<Sloped> = state.v.iter().copied().map(Sloped::from_f64).collect();

@@ -16,7 +16,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::scan::{axpy, dot, largest, largest_product};
+use crate::scan::{axpy, dot, largest, largest_product, place_of_largest};
 
 /// An earlier column is taken as pivot if its significance is at least this share of the largest: the declared order is kept
 /// where it costs nothing, and of two equal constraints the later one is called redundant. One half at most doubles the growth
@@ -136,14 +136,7 @@ impl Decomposition {
     /// Brings the largest entry of column k below its diagonal onto the diagonal.
     fn swap_rows(&mut self, k: usize) {
         let (n, m) = (self.n, self.m);
-        let column = &self.a[k * n..(k + 1) * n];
-        let top = (k..n).fold(k, |best, i| {
-            if column[i].abs() > column[best].abs() {
-                i
-            } else {
-                best
-            }
-        });
+        let top = k + place_of_largest(&self.a[k * n + k..(k + 1) * n]);
         if top != k {
             self.row.swap(k, top);
             self.work_n.swap(k, top);

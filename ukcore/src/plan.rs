@@ -261,20 +261,17 @@ impl Plan {
         if solve.checks.is_empty() && solve.met.is_empty() && solve.redundant.is_empty() {
             return item(f, "nothing is checked: no pivot can vanish");
         }
-        let names = |wanted: fn(&Check) -> Option<usize>| {
+        let [positive, shares] = [true, false].map(|positive| {
+            let wanted = |check: &Check| match *check {
+                Check::Positive(k) => positive.then_some(k),
+                Check::Share(k) => (!positive).then_some(k),
+            };
             let names = solve.checks.iter().filter_map(wanted);
-            let mut names: Vec<&str> = names.map(|k| self.spec.name_at(k)).collect();
             let mut known = BTreeSet::new();
-            names.retain(|name| known.insert(*name));
-            names.join(" ")
-        };
-        let positive = names(|check| match *check {
-            Check::Positive(k) => Some(k),
-            Check::Share(_) => None,
-        });
-        let shares = names(|check| match *check {
-            Check::Share(k) => Some(k),
-            Check::Positive(_) => None,
+            let names = names
+                .map(|k| self.spec.name_at(k))
+                .filter(|name| known.insert(*name));
+            names.collect::<Vec<_>>().join(" ")
         });
         if !positive.is_empty() {
             item(f, &format!("positive: the inertia or pivots of {positive}"))?;

@@ -1,9 +1,7 @@
 //! How much rounding an evaluation carries: emitted code run on numbers that add up their errors as they go.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 use crate::scalar::tape::player;
-use crate::scalar::{Dual, Scalar, functions};
+use crate::scalar::{Dual, Scalar, functions, operators};
 
 /// States beside one at hand that show what rounding makes of an evaluation there, for whatever it is computed by: each number is off by ε,
 /// in directions without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
@@ -35,10 +33,7 @@ impl Rounded {
 
     /// A number that is known to rounding.
     pub(crate) fn unknown(value: f64) -> Self {
-        Rounded {
-            value,
-            error: value.abs(),
-        }
+        Rounded::within(value, 0.0)
     }
 
     /// The error, for comparisons: 0 where a function is too steep to tell.
@@ -88,38 +83,12 @@ fn carried(slope: f64, error: f64) -> f64 {
     }
 }
 
-impl Add for Rounded {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Rounded::result(self.value + o.value, self.error + o.error)
-    }
-}
-impl Sub for Rounded {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        Rounded::result(self.value - o.value, self.error + o.error)
-    }
-}
-impl Mul for Rounded {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        self.binary(o, |a, b| a * b)
-    }
-}
-impl Div for Rounded {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        self.binary(o, |a, b| a / b)
-    }
-}
-impl Neg for Rounded {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Rounded {
-            value: -self.value,
-            error: self.error,
-        }
-    }
+operators! { [] Rounded:
+    Add add |a, b| Rounded::result(a.value + b.value, a.error + b.error);
+    Sub sub |a, b| Rounded::result(a.value - b.value, a.error + b.error);
+    Mul mul |a, b| a.binary(b, |a, b| a * b);
+    Div div |a, b| a.binary(b, |a, b| a / b);
+    Neg neg |a| Rounded { value: -a.value, error: a.error };
 }
 
 macro_rules! by_slopes {

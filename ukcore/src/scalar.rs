@@ -141,6 +141,30 @@ macro_rules! functions {
 }
 pub(crate) use functions;
 
+/// Makes the operators of a number type, with its generic parameters, from functions of their operands.
+macro_rules! operators {
+    (
+        @one [$($generic:tt)*] $S:ty, $Operator:ident $name:ident
+        |$a:ident $(, $b:ident)?| $result:expr
+    ) => {
+        impl<$($generic)*> std::ops::$Operator for $S {
+            type Output = Self;
+            #[inline]
+            fn $name(self $(, $b: Self)?) -> Self {
+                let $a = self;
+                $result
+            }
+        }
+    };
+    (
+        $generics:tt $S:ty:
+        $($Operator:ident $name:ident |$a:ident $(, $b:ident)?| $result:expr;)*
+    ) => {
+        $(operators!(@one $generics $S, $Operator $name |$a $(, $b)?| $result);)*
+    };
+}
+pub(crate) use operators;
+
 macro_rules! float {
     ($f:ident) => {
         impl Scalar for $f {
@@ -230,41 +254,15 @@ impl<S: Scalar, E: Slope<S>> Dual<S, E> {
     }
 }
 
-impl<S: Scalar, E: Slope<S>> Add for Dual<S, E> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Dual::new(self.re + o.re, self.eps + o.eps)
-    }
-}
-impl<S: Scalar, E: Slope<S>> Sub for Dual<S, E> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Dual::new(self.re - o.re, self.eps - o.eps)
-    }
-}
-impl<S: Scalar, E: Slope<S>> Mul for Dual<S, E> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        Dual::new(self.re * o.re, self.eps * o.re + o.eps * self.re)
-    }
-}
-impl<S: Scalar, E: Slope<S>> Div for Dual<S, E> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let re = self.re / o.re;
-        Dual::new(re, (self.eps - o.eps * re) / o.re)
-    }
-}
-impl<S: Scalar, E: Slope<S>> Neg for Dual<S, E> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Dual::new(-self.re, -self.eps)
-    }
+operators! { [S: Scalar, E: Slope<S>] Dual<S, E>:
+    Add add |a, b| Dual::new(a.re + b.re, a.eps + b.eps);
+    Sub sub |a, b| Dual::new(a.re - b.re, a.eps - b.eps);
+    Mul mul |a, b| Dual::new(a.re * b.re, a.eps * b.re + b.eps * a.re);
+    Div div |a, b| {
+        let re = a.re / b.re;
+        Dual::new(re, (a.eps - b.eps * re) / b.re)
+    };
+    Neg neg |a| Dual::new(-a.re, -a.eps);
 }
 
 impl<S: Scalar, E: Slope<S>> Scalar for Dual<S, E> {

@@ -24,6 +24,11 @@ pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
+/// Where |x| is largest, first; 0 of none.
+pub(crate) fn place_of_largest(x: &[f64]) -> usize {
+    (0..x.len()).fold(0, |b, i| if x[i].abs() > x[b].abs() { i } else { b })
+}
+
 /// max|x_j|/unit_j, 0 of none; all units are 1 where there are none. Passes over NaN in an `f64`.
 #[inline]
 pub(crate) fn largest_by<S: Scalar>(x: &[S], units: &[f64]) -> S {

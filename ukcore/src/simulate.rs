@@ -16,7 +16,6 @@ pub use crate::trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, 
 pub use ensemble::{Ensemble, Member};
 
 mod agenda;
-mod angles;
 mod check;
 mod crossing;
 mod energy;
@@ -301,8 +300,8 @@ impl Simulation {
         };
         let mut solver = Solver::new(&self.mechanism, recorder.trajectory.options);
         match recorder.trajectory.projected {
-            true => solver.project(),
-            false => solver.drift(),
+            true => solver.dropping.project(),
+            false => solver.dropping.keep(),
         }
         let mut run = Run {
             solver,

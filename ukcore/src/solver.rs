@@ -60,6 +60,9 @@ pub(crate) const CLEAR: f64 = 4.0 * RANK_CEILING;
 /// ten), and one Newton correction measures the drift to first order.
 pub const DRIFT_FACTOR: f64 = 10.0;
 
+/// A time, coordinates and velocities.
+pub(crate) type Given<'a> = (f64, &'a [f64], &'a [f64]);
+
 /// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Solver {
@@ -95,15 +98,8 @@ pub struct Solver {
     light: light::Light,
     /// Whether c is left out.
     ideal: bool,
-    dropping: Dropping,
-}
-
-/// Rank and formula of the evaluation in hand.
-#[derive(Debug, Clone, Copy)]
-struct Decided {
-    formula: Formula,
-    /// The tolerance that decided the rank.
-    tolerance: f64,
+    /// What it is told of projections, and which certificates of the emitted elimination it accepts.
+    pub(crate) dropping: Dropping,
 }
 
 impl Solver {
@@ -173,9 +169,9 @@ impl Solver {
         diagnose::subnormal(&self.mechanism)?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
-            self.acceleration_in_run(t, q, v, out)
+            self.acceleration_in_run((t, q, v), out)
         } else {
-            self.rank_revealing(t, q, v, out)
+            self.rank_revealing((t, q, v), out)
         }
     }
 
@@ -184,20 +180,18 @@ impl Solver {
     #[inline]
     pub(crate) fn acceleration_in_run(
         &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        at: Given<'_>,
         out: &mut [f64],
     ) -> Result<(), Error> {
-        match self.goes_straight(t, q, v, out) {
+        match self.goes_straight(at, out) {
             true => Ok(()),
-            false => self.goes_round(t, q, v, out),
+            false => self.goes_round(at, out),
         }
     }
 
     /// Accelerations by the straight line, if it can be trusted.
     #[inline]
-    pub(crate) fn goes_straight(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+    pub(crate) fn goes_straight(&mut self, (t, q, v): Given<'_>, out: &mut [f64]) -> bool {
         if !self.straight_line {
             return false;
         }
@@ -223,30 +217,24 @@ impl Solver {
 
     /// Accelerations where the straight line was tried, and left them in `out` for refinement, or there is none.
     #[cold]
-    pub(crate) fn goes_round(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        out: &mut [f64],
-    ) -> Result<(), Error> {
+    pub(crate) fn goes_round(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
         if !self.straight_line {
-            return self.rank_revealing(t, q, v, out);
+            return self.rank_revealing(at, out);
         }
         if self.dropping.is_uneven() && all_finite(out) {
-            self.here.dynamics(&self.mechanism, t, q, v);
+            self.here.dynamics(&self.mechanism, at.0, at.1, at.2);
             if self.is_even() {
                 self.count();
                 return Ok(());
             }
         }
-        if self.refined(t, q, v, out) {
+        if self.refined(at, out) {
             self.full = self.m;
             return Ok(());
         }
         // Once for a solution, whatever else is left on the way; not for one that confirms what the straight line found.
         let fallbacks = self.work.fallbacks;
-        let result = self.rank_revealing(t, q, v, out);
+        let result = self.rank_revealing(at, out);
         let rank = self.dense.cod.rank();
         let confirmed = result.is_ok() && self.dropping.confirm(rank, self.m);
         self.work.fallbacks = fallbacks + usize::from(!confirmed);
@@ -254,18 +242,12 @@ impl Solver {
     }
 
     /// Accelerations by the rank-revealing solve.
-    fn rank_revealing(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        out: &mut [f64],
-    ) -> Result<(), Error> {
-        let decided = self.decide(t, q, v)?;
+    fn rank_revealing(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
+        let (formula, tolerance) = self.decide(at)?;
         self.apply_all_forces();
-        self.solve_for_force(decided.formula, out);
-        self.remember(decided.formula);
-        self.check(t, q, v, decided.tolerance, out)
+        self.solve_for_force(formula, out);
+        self.remember(formula);
+        self.check(at, tolerance, out)
     }
 
     /// Leaves c out of what [`Solver::solve`] solves: it may be no number where reactions are not, while constraints are what they are.
@@ -282,10 +264,10 @@ impl Solver {
         diagnose::inertias(&self.mechanism)?;
         let n = self.n;
         let mut ideal = vec![0.0; n];
-        let decided = self.decide(t, q, v)?;
+        let (formula, tolerance) = self.decide((t, q, v))?;
         self.force.copy_from_slice(&self.here.force);
-        self.solve_for_force(decided.formula, &mut ideal);
-        let mut ideal_force = if decided.formula == Formula::UdwadiaKalaba {
+        self.solve_for_force(formula, &mut ideal);
+        let mut ideal_force = if formula == Formula::UdwadiaKalaba {
             let mut force = self.dense.reaction.clone();
             self.dense.metric.multiply(&mut force);
             force
@@ -298,12 +280,12 @@ impl Solver {
         let mut nonideal_force = vec![0.0; n];
         if self.mechanism.spec().structure.nonideal {
             self.apply_all_forces();
-            self.solve_for_force(decided.formula, &mut acceleration);
+            self.solve_for_force(formula, &mut acceleration);
             let mut change = acceleration.clone();
             axpy(-1.0, &ideal, &mut change);
             nonideal_force = self.mass_times(&change);
         }
-        self.check(t, q, v, decided.tolerance, &acceleration)?;
+        self.check((t, q, v), tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
         self.dense
             .multipliers(&mut ideal_force.clone(), &mut multipliers);
@@ -320,7 +302,7 @@ impl Solver {
             multipliers,
             rank,
             degrees_of_freedom: n - rank,
-            formula: decided.formula,
+            formula,
             redundant,
         })
     }
@@ -328,20 +310,18 @@ impl Solver {
     /// q̈ and all λ, with M q̈ = Q + c + Aᵀλ, by the rank-revealing solve, whose factors then serve [`Solver::respond`].
     pub(crate) fn balance(
         &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        at: Given<'_>,
         acceleration: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<Formula, Error> {
-        let decided = self.decide(t, q, v)?;
+        let (formula, tolerance) = self.decide(at)?;
         self.apply_all_forces();
-        self.solve_for_force(decided.formula, acceleration);
-        self.check(t, q, v, decided.tolerance, acceleration)?;
+        self.solve_for_force(formula, acceleration);
+        self.check(at, tolerance, acceleration)?;
         let mut reaction = self.mass_times(acceleration);
         axpy(-1.0, &self.force, &mut reaction);
         self.dense.multipliers(&mut reaction, multipliers);
-        Ok(decided.formula)
+        Ok(formula)
     }
 
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].
@@ -393,26 +373,6 @@ impl Solver {
         &mut self.mechanism
     }
 
-    /// From here on each step of a run ends with a projection, which tells whether constraints are met that are left out within it.
-    pub(crate) fn project(&mut self) {
-        self.dropping.project();
-    }
-
-    /// From here on states drift off the constraints.
-    pub(crate) fn drift(&mut self) {
-        self.dropping.keep();
-    }
-
-    /// A step was projected, or could not be.
-    pub(crate) fn judge(&mut self, met: bool) {
-        self.dropping.judge(met);
-    }
-
-    /// The certificates of the emitted elimination with which it may be used in place of a solution.
-    pub(crate) fn accepted(&self) -> Accepted {
-        self.dropping.accepted
-    }
-
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {
@@ -427,8 +387,8 @@ impl Solver {
         y
     }
 
-    /// Evaluates, factors, and decides the rank.
-    fn decide(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Decided, Error> {
+    /// Evaluates, factors, and decides the rank. Returns the formula, and the tolerance that decided.
+    fn decide(&mut self, (t, q, v): Given<'_>) -> Result<(Formula, f64), Error> {
         diagnose::check_lengths(&self.mechanism, q, v)?;
         diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
@@ -453,7 +413,7 @@ impl Solver {
         let measure = &mut self.dense.measure;
         measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
         let formula = self.factor()?;
-        let tolerance = self.decide_rank(t, q, v)?;
+        let tolerance = self.decide_rank((t, q, v))?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
             return Err(Error::Underdetermined {
                 coordinates: diagnose::participating(
@@ -464,8 +424,7 @@ impl Solver {
                 needed: self.n,
             });
         }
-        let formula = self.eliminate(formula);
-        Ok(Decided { formula, tolerance })
+        Ok((self.eliminate(formula), tolerance))
     }
 
     /// Factors M and A; the formula is then UdwadiaKalaba, UdwadiaPhohomsiri or Kkt.
@@ -474,9 +433,7 @@ impl Solver {
         let floor = self.options.rank_tolerance;
         let a = self.here.rows();
         // Where M may come near singular, M⁻¹ Q and what the constraints take off it may be so large that q̈ is lost between them.
-        let solve = &structure.solve;
-        let regular =
-            structure.massless.is_empty() && solve.regular.is_empty() && solve.met.is_empty();
+        let regular = structure.is_regular();
         let (route, formula) = match self.options.formula {
             Formula::Auto if regular && !self.singular => (Route::Regular, Formula::UdwadiaKalaba),
             Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),

@@ -12,8 +12,10 @@ const TURNS: usize = 60;
 /// After so many turns in which no eigenvalue was found other shifts are tried, and entries that rounding leaves unknown are zero.
 const PATIENCE: usize = 10;
 
-fn limit(matrix: &DMatrix<f64>) -> usize {
-    TURNS * (matrix.nrows() + matrix.ncols())
+/// How many iterations `matrix` is given; `None` for one that is not finite.
+fn limit(matrix: &DMatrix<f64>) -> Option<usize> {
+    let finite = matrix.iter().all(|x| x.is_finite());
+    finite.then_some(TURNS * (matrix.nrows() + matrix.ncols()))
 }
 
 /// The singular values of `matrix`, with singular vectors on its left and on its right if asked for; `None` for one that is not finite.
@@ -22,16 +24,14 @@ pub(crate) fn singular(
     left: bool,
     right: bool,
 ) -> Option<SVD<f64, Dyn, Dyn>> {
-    let most = limit(&matrix);
-    let finite = matrix.iter().all(|x| x.is_finite());
-    finite.then(|| matrix.try_svd(left, right, 5.0 * f64::EPSILON, most))?
+    let most = limit(&matrix)?;
+    matrix.try_svd(left, right, 5.0 * f64::EPSILON, most)
 }
 
 /// The eigenvalues and eigenvectors of a symmetric `matrix`; `None` for one that is not finite.
 pub(crate) fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
-    let most = limit(&matrix);
-    let finite = matrix.iter().all(|x| x.is_finite());
-    finite.then(|| SymmetricEigen::try_new(matrix, f64::EPSILON, most))?
+    let most = limit(&matrix)?;
+    SymmetricEigen::try_new(matrix, f64::EPSILON, most)
 }
 
 /// The eigenvalues of a square `matrix`, conjugate ones next to each other; `None` for one that is not finite.
@@ -43,9 +43,7 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     if matrix.is_empty() {
         return Some(values);
     }
-    if !matrix.iter().all(|x| x.is_finite()) {
-        return None;
-    }
+    limit(matrix)?;
     let mut h = matrix.clone().hessenberg().unpack_h();
     let unknown = f64::EPSILON * h.norm();
     let (mut end, mut turns) = (h.nrows(), 0);
@@ -120,12 +118,7 @@ fn shifts(h: &DMatrix<f64>, start: usize, end: usize, turns: usize) -> (f64, f64
 
 /// One turn of the rows and columns from `start` to `end`, by mirrors of three rows each that follow each other down the diagonal.
 fn turn(h: &mut DMatrix<f64>, start: usize, end: usize, trace: f64, determinant: f64) {
-    let (a, b, c, d) = (
-        h[(start, start)],
-        h[(start, start + 1)],
-        h[(start + 1, start)],
-        h[(start + 1, start + 1)],
-    );
+    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| h[(start + i, start + j)]);
     let mut column = [
         a * a + b * c - trace * a + determinant,
         c * (a + d - trace),
@@ -135,14 +128,10 @@ fn turn(h: &mut DMatrix<f64>, start: usize, end: usize, trace: f64, determinant:
         let rows = 3.min(end - k);
         let size = column.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
         if size > 0.0 {
+            let square = |axis: [f64; 3]| axis.iter().map(|x| x * x).sum::<f64>();
             let mut axis = column.map(|x| x / size);
-            axis[0] += axis
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt()
-                .copysign(axis[0]);
-            let twice = 2.0 / axis.iter().map(|x| x * x).sum::<f64>();
+            axis[0] += square(axis).sqrt().copysign(axis[0]);
+            let twice = 2.0 / square(axis);
             for j in k.saturating_sub(1).max(start)..end {
                 let along: f64 = (0..rows).map(|i| axis[i] * h[(k + i, j)]).sum();
                 (0..rows).for_each(|i| h[(k + i, j)] -= twice * along * axis[i]);

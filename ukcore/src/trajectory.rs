@@ -20,7 +20,6 @@ mod multipliers;
 
 pub use csv::CsvWriter;
 pub(crate) use drift::EnergyDrift;
-use drift::Gauge;
 pub use drift::{Drift, Residual};
 
 /// What a [streamed](crate::Simulation::stream) run hands over.
@@ -133,6 +132,15 @@ impl Trajectory {
         self.states.extend_from_slice(sample.q);
         self.states.extend_from_slice(sample.v);
         self.integrals.extend_from_slice(sample.integrals);
+    }
+
+    /// Leaves so many samples and events.
+    pub(crate) fn truncate(&mut self, samples: usize, events: usize) {
+        let count = self.integrals.len() / self.times.len().max(1);
+        self.times.truncate(samples);
+        self.states.truncate(2 * self.spec().n() * samples);
+        self.integrals.truncate(count * samples);
+        self.events.truncate(events);
     }
 
     /// The run has got to this state.
@@ -353,8 +361,8 @@ impl Trajectory {
     /// How far the samples are off the constraints.
     #[must_use]
     pub fn residuals(&self) -> Vec<Residual> {
-        let mut gauge = Gauge::new(self.mechanism.clone());
-        self.samples().map(|s| gauge.residual(s)).collect()
+        let residual = |s| Residual::of(&self.mechanism, s);
+        self.samples().map(residual).collect()
     }
 
     /// Accelerations q̈ at the samples, by the formula of the run.

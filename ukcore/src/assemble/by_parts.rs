@@ -61,7 +61,7 @@ pub(super) struct Found {
 }
 
 /// What is found straight from the guess, part by part: where, and for each part that has a solution how far it is.
-struct Straight {
+pub(super) struct Straight {
     x: Vec<f64>,
     distances: Vec<Option<f64>>,
 }
@@ -128,22 +128,19 @@ impl<'a> ByParts<'a> {
         }
     }
 
-    /// All parts solved as near to the guess as is found.
-    pub(super) fn found_nearest(&mut self) -> Option<Found> {
+    /// All parts solved as near to the guess as is found, and what is found straight from it.
+    pub(super) fn found_nearest(&mut self) -> Option<(Found, Straight)> {
         let straight = self.straight();
-        self.nearest_of_all(&straight)
-    }
-
-    fn nearest_of_all(&mut self, straight: &Straight) -> Option<Found> {
         let all: Vec<usize> = (0..self.parts.len()).collect();
-        self.nearest(&all, self.guess.to_vec(), f64::INFINITY, Some(straight))
+        let guess = self.guess.to_vec();
+        let nearest = self.nearest(&all, guess, f64::INFINITY, Some(&straight))?;
+        Some((nearest, straight))
     }
 
     /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first:
     /// in each of them it is another one.
     pub(super) fn found_near(&mut self, (times, none): (f64, f64)) -> Option<(Found, Vec<Found>)> {
-        let straight = self.straight();
-        let nearest = self.nearest_of_all(&straight)?;
+        let (nearest, straight) = self.found_nearest()?;
         let all: Vec<usize> = (0..self.parts.len()).collect();
         let mut others = Vec::new();
         for group in self.groups(&all) {

@@ -54,13 +54,13 @@ impl Search {
         let v = held.rates(&q, &guess.v);
         let told = |j: &usize| !held.untold_rates.contains(j);
         let told: Vec<usize> = search.free.iter().copied().filter(told).collect();
-        if told.is_empty() {
-            let v = search.find(&at, &v)?;
-            return Ok(State { t: guess.t, q, v });
+        let mut times = 1;
+        if !told.is_empty() {
+            search.manifold.lighten(&held.untold_rates);
+            times = TIMES;
         }
-        search.manifold.lighten(&held.untold_rates);
         let (wish, mut v) = (v.clone(), v);
-        for _ in 0..TIMES {
+        for _ in 0..times {
             told.iter().for_each(|&j| v[j] = wish[j]);
             v = search.find(&at, &v)?;
         }
@@ -75,8 +75,8 @@ impl Search {
         if at.level != Level::Position || parts.len() < 2 && !determined {
             return None;
         }
-        let found = ByParts::new(self, at, guess, &parts).found_nearest()?;
-        self.projected(at, found.x)
+        let (nearest, _) = ByParts::new(self, at, guess, &parts).found_nearest()?;
+        self.projected(at, nearest.x)
     }
 
     /// Where all solutions lie apart the nearest to the guess, and besides it those that are at most `times` as far, or `none`, in what

@@ -4,11 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Search, State};
 use crate::manifold::At;
-use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, null_space_holding};
 use crate::spectrum::singular;
 
-use super::Places;
+use super::Ways;
 
 /// Steps, at most, and how long one is, at most, beside what coordinates extend over.
 const STEPS: usize = 200;
@@ -23,14 +22,7 @@ const ALONG: f64 = 0.95;
 /// A walk ends where less than this share of the way that is left is along the constraints.
 const NOWHERE: f64 = 1e-3;
 
-/// What walks need to know.
-pub(super) struct Walk<'a> {
-    pub(super) mech: &'a Prepared,
-    pub(super) held: &'a [usize],
-    pub(super) places: &'a Places,
-}
-
-impl Walk<'_> {
+impl Ways<'_> {
     /// Whether the straightest way from `from` along the constraints `at` a time gets to `to`, but for whole turns. One that does not may
     /// have met a dead end on a way that is longer.
     pub(super) fn reaches(
@@ -84,7 +76,7 @@ impl Walk<'_> {
         let rows = constraint_matrix(self.mech, &State::at_rest(at.t, q.to_vec()));
         let rows = rows.rows(0, self.mech.spec().holonomic).into_owned();
         let units = DVector::from_column_slice(&self.places.extents);
-        null_space_holding(self.held, rows, &units)
+        null_space_holding(&self.held.positions, rows, &units)
     }
 }
 

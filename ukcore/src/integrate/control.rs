@@ -37,11 +37,6 @@ pub(crate) struct StepSize {
 }
 
 impl StepSize {
-    /// Whether the next attempt is at a first step or one that was rejected.
-    pub(super) fn unproven(&self) -> bool {
-        self.rejected || self.last.is_none()
-    }
-
     /// Size of the step after one of size `h` that was accepted with the error `error`. Does not grow after a rejection.
     ///
     /// Where errors grew faster from the step before to this one than their sizes account for, they are taken to go on so (Gustafsson's

@@ -52,9 +52,9 @@ pub(crate) struct Course {
     /// Signed size proposed for the next step.
     pub(crate) h: f64,
     settings: Settings,
-    pub(super) pace: Pace,
+    pub(crate) pace: Pace,
     /// What went wrong since the last accepted step, nearest to it; the contradiction ahead.
-    trouble: Cause,
+    pub(crate) trouble: Cause,
     conflict: Conflict,
     /// Steps attempted and accepted.
     pub(super) attempts: usize,
@@ -70,11 +70,7 @@ impl Course {
             end: Place { s, t },
             now: Place { s: 0.0, t: t0 },
             h: 0.0,
-            pace: Pace::new(
-                settings.switches,
-                settings.tolerance.clone(),
-                settings.max_steps,
-            ),
+            pace: Pace::new(settings),
             settings: settings.clone(),
             trouble: None,
             conflict: Conflict::default(),
@@ -195,12 +191,6 @@ impl Course {
         self.trouble = cause.or(self.trouble.take());
     }
 
-    /// What was tried was no step.
-    #[cfg(feature = "ensemble")]
-    pub(crate) fn forgive(&mut self) {
-        self.trouble = None;
-    }
-
     /// Whether `t` is so close to where the run stands that only what happens there is in the way.
     pub(crate) fn is_close(&self, t: f64) -> bool {
         (t - self.now.t).abs() <= NEAR * self.end.s.abs()
@@ -274,12 +264,6 @@ impl Course {
     /// The next step is at most of this size.
     pub(crate) fn limit(&mut self, largest: f64) {
         self.h = self.along * self.h.abs().min(largest.abs());
-    }
-
-    /// Whether the last steps may have been about the zero of a length, as far as the state tells.
-    #[cfg(feature = "ensemble")]
-    pub(crate) fn is_slow(&self) -> bool {
-        self.pace.is_slow()
     }
 
     /// The error of a motion that is driven onto the zeros of `switches`, from either side of them.

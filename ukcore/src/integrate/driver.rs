@@ -256,7 +256,7 @@ impl Driver<'_> {
 
     /// Tries a step, and moves to its end if it is good. Returns its error.
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
-        self.equations.switches.begin();
+        self.equations.switches.doubt = false;
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
         let rounding = f64::max(1.0, self.noise * trial.h.abs());
         let start = Sample::of(self.equations.course.now.t, self.scheme.start());

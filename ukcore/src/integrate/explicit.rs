@@ -23,7 +23,7 @@ impl Scheme for Explicit {
     }
 
     fn gap(&self) -> Option<[f64; 2]> {
-        Some(self.stepper.gap())
+        Some(self.stepper.tableau.gap())
     }
 
     fn tolerate(&mut self, tolerance: &Tolerance) {

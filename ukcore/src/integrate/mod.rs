@@ -137,40 +137,28 @@ pub(crate) trait Problem {
     ) -> Result<(), Error>;
     /// Moves an accepted state to the nearest consistent one.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error>;
-    /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.
-    fn project_along(
-        &mut self,
-        t: f64,
-        base: &[f64],
-        q: &mut [f64],
-        shift: &mut [f64],
-    ) -> Result<(), Error>;
+    /// Moves coordinates, the first of `moved`, onto the constraints at t along M⁻¹A(`base`)ᵀ, by the other.
+    fn project_along(&mut self, t: f64, base: &[f64], moved: [&mut [f64]; 2]) -> Result<(), Error>;
     /// Moves the velocities `v` to the nearest ones that are consistent at (t, `q`).
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
     /// Puts into `change`, by which a projection changes a state, what is left of it without what rounding makes of it.
-    fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
-        let _ = (at, change);
-    }
+    fn excess(&mut self, _at: Sample<'_>, _change: &mut [f64]) {}
     /// What ends a run that gets nowhere, since projections take back the way of each step; `at` is the end of such a step, not projected.
-    fn stuck(&mut self, at: Sample<'_>) -> Option<Error> {
-        let _ = at;
+    fn stuck(&mut self, _at: Sample<'_>) -> Option<Error> {
         None
     }
     /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes
     /// nearer.
-    fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
-        let _ = (at, t_old);
+    fn jump(&mut self, _at: Sample<'_>, _t_old: f64) -> Option<Error> {
         None
     }
     /// The singular position that the states evaluated since the last call came near, if they did; else one near `stands`.
-    fn singular(&mut self, purpose: Purpose, stands: Option<Sample<'_>>) -> Option<Singular> {
-        let _ = (purpose, stands);
+    fn singular(&mut self, _purpose: Purpose, _stands: Option<Sample<'_>>) -> Option<Singular> {
         None
     }
     /// The singular position where a constraint loses its row of A by itself, within the step from `old` to `new`, or near `old` where
     /// there was no step.
-    fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {
-        let _ = (old, new);
+    fn vanishing(&mut self, _old: Sample<'_>, _new: Option<Sample<'_>>) -> Option<Singular> {
         None
     }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
@@ -180,17 +168,11 @@ pub(crate) trait Problem {
         0
     }
     /// The g of all switches at a state.
-    fn switching(&mut self, at: Sample<'_>, values: &mut [f64]) {
-        let _ = (at, values);
-    }
+    fn switching(&mut self, _at: Sample<'_>, _values: &mut [f64]) {}
     /// Their derivatives by time at a state with these accelerations.
-    fn switching_rate(&mut self, at: Sample<'_>, acceleration: &[f64], values: &mut [f64]) {
-        let _ = (at, acceleration, values);
-    }
+    fn switching_rate(&mut self, _at: Sample<'_>, _acceleration: &[f64], _values: &mut [f64]) {}
     /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.
-    fn set_branch(&mut self, k: usize, branch: Branch) {
-        let _ = (k, branch);
-    }
+    fn set_branch(&mut self, _k: usize, _branch: Branch) {}
     /// Called after each step that is good, with the error of what the problem makes of it, in terms of what is allowed. After an error, or
     /// one above 1, nothing of this call may be kept: the step is tried again, shorter.
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error>;

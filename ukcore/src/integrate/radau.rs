@@ -176,7 +176,7 @@ impl Radau {
         self.newton
             .filter(step.h, &ERROR, &self.rate, &mut self.error);
         let error = norm(&self.error, &self.weights);
-        if error < 1.0 || !self.size.unproven() {
+        if error < 1.0 || !(self.size.rejected || self.size.last.is_none()) {
             return error;
         }
         for (x, y) in self.error.iter_mut().zip(&self.start) {
@@ -328,7 +328,7 @@ impl Scheme for Radau {
         self.size.accept(h, error);
         self.h_previous = Some(h);
         let factor = quotient.recip();
-        if (1.0..=KEEP).contains(&factor) && self.newton.keeps_jacobian() {
+        if (1.0..=KEEP).contains(&factor) && !self.newton.stale {
             h
         } else {
             h * factor

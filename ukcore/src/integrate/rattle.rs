@@ -11,7 +11,6 @@
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
-use super::Tolerance;
 use super::course::Trial;
 use super::dense::cubic;
 use super::scheme::{Equations, Scheme};
@@ -78,7 +77,7 @@ impl Rattle {
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
         add(q, q_lost, h, v);
         let problem = &mut *equations.problem;
-        if let Err(error) = problem.project_along(t, &self.base, q, &mut self.shift) {
+        if let Err(error) = problem.project_along(t, &self.base, [q, &mut self.shift]) {
             let step = self.step.abs();
             let reason = format!("is {step}, which is too long here: {error}");
             let error = Error::invalid("step", reason);
@@ -108,12 +107,6 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn gap(&self) -> Option<[f64; 2]> {
-        None
-    }
-
-    fn tolerate(&mut self, _: &Tolerance) {}
-
     fn states(&self) -> [&[f64]; 2] {
         [&self.start, &self.end]
     }

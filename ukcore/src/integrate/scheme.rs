@@ -25,15 +25,12 @@ impl Rates<f64> for Equations<'_> {
 
     fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
         let (q_rate, v_rate) = rate.split_at_mut(y.len() / 2);
+        q_rate.copy_from_slice(&y[v_rate.len()..]);
+        self.acceleration(s, y, v_rate)?;
         if self.nearby {
-            let nearest = self.nearest(s, y)?;
-            q_rate.copy_from_slice(&nearest[q_rate.len()..]);
-            let result = self.evaluate(s, &nearest, v_rate);
-            self.consistent = nearest;
-            return result;
+            q_rate.copy_from_slice(&self.consistent[v_rate.len()..]);
         }
-        q_rate.copy_from_slice(&y[q_rate.len()..]);
-        self.evaluate(s, y, v_rate)
+        Ok(())
     }
 }
 
@@ -134,8 +131,7 @@ pub(super) trait Scheme {
     fn close(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause>;
 
     /// Makes the coefficients of the interpolant of the closed step, if closing did not, for [`dense`](Scheme::dense).
-    fn interpolate(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<(), Cause> {
-        let _ = (equations, step);
+    fn interpolate(&mut self, _equations: &mut Equations<'_>, _step: Trial) -> Result<(), Cause> {
         Ok(())
     }
 
@@ -143,9 +139,7 @@ pub(super) trait Scheme {
     fn dense(&self) -> &[f64];
 
     /// Gives [`error`](Scheme::error) of the closed step the size `norm` in the error norm.
-    fn scale_error(&mut self, norm: f64) {
-        let _ = norm;
-    }
+    fn scale_error(&mut self, _norm: f64) {}
 
     /// What the state at the end of the closed step is thought to be off; `None` where there is no telling.
     fn error(&self) -> Option<&[f64]> {
@@ -165,11 +159,13 @@ pub(super) trait Scheme {
     fn unfit(&mut self, h: f64) -> f64;
 
     /// From the next attempt on steps have this tolerance.
-    fn tolerate(&mut self, tolerance: &Tolerance);
+    fn tolerate(&mut self, _tolerance: &Tolerance) {}
 
     /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
     /// cannot be put so that a place lies in it.
-    fn gap(&self) -> Option<[f64; 2]>;
+    fn gap(&self) -> Option<[f64; 2]> {
+        None
+    }
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

@@ -21,7 +21,7 @@ pub(crate) trait Rates<S> {
 
 /// The state at the start of a step, buffers, and what the last attempted step left in them.
 pub(crate) struct Stepper<S> {
-    tableau: &'static Tableau,
+    pub(super) tableau: &'static Tableau,
     sums: Sums<S>,
     n: usize,
     /// Of a step.
@@ -64,11 +64,6 @@ impl<L: Lanes> Stepper<L> {
             self.control().order,
             &self.tolerance,
         )
-    }
-
-    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
-    pub(super) fn gap(&self) -> [f64; 2] {
-        self.tableau.gap()
     }
 
     /// Another motion begins in lane `k` at `y`, with these [floors](Tolerance::floors).

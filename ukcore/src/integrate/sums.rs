@@ -70,13 +70,6 @@ impl<S: Scalar> Tolerance<S> {
     pub(crate) fn at(&self, i: usize, size: S) -> S {
         S::from_f64(self.relative) * (self.floors[i] + size)
     }
-
-    /// In each of components of these sizes.
-    fn of(&self, sizes: impl Iterator<Item = S>) -> impl Iterator<Item = S> {
-        let relative = S::from_f64(self.relative);
-        let pairs = sizes.zip(&self.floors);
-        pairs.map(move |(size, floor)| relative * (*floor + size))
-    }
 }
 
 impl Tolerance {
@@ -102,12 +95,10 @@ pub(super) fn keeping<S: Scalar>(x: S, change: S) -> (S, S) {
 
 /// `out` = 1 / tolerance at max(|old|, |new|), the weights of the [error norm](super).
 pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: &Tolerance<S>) {
-    let sizes = old
-        .iter()
-        .zip(new)
-        .map(|(old, new)| old.abs().max(new.abs()));
-    for (out, allowed) in out.iter_mut().zip(tolerance.of(sizes)) {
-        *out = allowed.recip();
+    let relative = S::from_f64(tolerance.relative);
+    let states = old.iter().zip(new).zip(&tolerance.floors);
+    for (out, ((old, new), floor)) in out.iter_mut().zip(states) {
+        *out = (relative * (*floor + old.abs().max(new.abs()))).recip();
     }
 }
 

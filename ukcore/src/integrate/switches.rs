@@ -48,8 +48,8 @@ pub(super) struct Switches {
     /// Distances into the branches at the start of a part of a step.
     before: Vec<f64>,
     state: Vec<f64>,
-    /// Whether an evaluation since the last [`Switches::begin`] was outside of the branches held.
-    doubt: bool,
+    /// Whether an evaluation of the step in hand was outside of the branches held.
+    pub(super) doubt: bool,
     /// The attempted step goes onto zeros of these.
     pub(super) targets: Vec<usize>,
 }
@@ -77,11 +77,6 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    /// A step is to be tried.
-    pub(super) fn begin(&mut self) {
-        self.doubt = false;
-    }
-
     /// y' is to be evaluated at this state.
     #[inline]
     pub(super) fn look(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
@@ -91,12 +86,6 @@ impl Switches {
         problem.switching(at, &mut self.values);
         let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
-    }
-
-    /// Whether the step may have left its branches, which ends at this state.
-    pub(super) fn suspect(&mut self, problem: &mut dyn Problem, at: Sample<'_>) -> bool {
-        self.look(problem, at);
-        self.doubt
     }
 
     /// Where a step first leaves its branches, if it does. `time` is that of a part of the step, `coefficients` are those of its

@@ -109,13 +109,7 @@ impl Problem for Plain {
         v.copy_from_slice(&y[q.len()..]);
         Ok(())
     }
-    fn project_along(
-        &mut self,
-        _: f64,
-        _: &[f64],
-        _: &mut [f64],
-        _: &mut [f64],
-    ) -> Result<(), Error> {
+    fn project_along(&mut self, _: f64, _: &[f64], _: [&mut [f64]; 2]) -> Result<(), Error> {
         Ok(())
     }
     fn project_velocity(&mut self, _: f64, _: &[f64], _: &mut [f64]) -> Result<(), Error> {

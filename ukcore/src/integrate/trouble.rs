@@ -1,5 +1,6 @@
 //! Why a run cannot go on, in words that help: what is known over several steps, and not in the one that failed last.
 
+use super::Settings;
 use super::sample::Sample;
 use super::sums::{Tolerance, error_norm};
 use crate::assemble::State;
@@ -31,11 +32,6 @@ impl Trouble {
     /// Whether constraints contradict each other.
     pub(crate) fn is_contradiction(&self) -> bool {
         contradiction(&self.error).is_some()
-    }
-
-    /// The error with its place.
-    pub(crate) fn into_error(self) -> Error {
-        Sample::from(&self.state).locate(self.error)
     }
 }
 
@@ -129,7 +125,7 @@ const STANDSTILL: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct Pace {
     /// All switches of the equations.
-    switches: &'static [SwitchSpec],
+    pub(super) switches: &'static [SwitchSpec],
     tolerance: Tolerance,
     /// Steps allowed, and still allowed as far as accepted ones count.
     most: usize,
@@ -146,22 +142,18 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    pub(crate) fn new(
-        switches: &'static [SwitchSpec],
-        tolerance: Tolerance,
-        max_steps: usize,
-    ) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         Pace {
-            switches,
-            tolerance,
-            most: max_steps,
-            left: max_steps,
+            switches: settings.switches,
+            tolerance: settings.tolerance.clone(),
+            most: settings.max_steps,
+            left: settings.max_steps,
             steps: 0,
             way: 0.0,
             change: 0.0,
             slow: 0,
             size: 0.0,
-            crossed: vec![0; switches.len()],
+            crossed: vec![0; settings.switches.len()],
         }
     }
 
@@ -198,11 +190,6 @@ impl Pace {
             }
         }
         self.size = h.abs();
-    }
-
-    /// All switches of the equations.
-    pub(super) fn switches(&self) -> &'static [SwitchSpec] {
-        self.switches
     }
 
     /// Whether the last steps may have been about the zero of a length, as far as the state tells.

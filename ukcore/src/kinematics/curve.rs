@@ -36,6 +36,8 @@ pub(super) struct Curve<'a> {
     pub(super) fixed: Vec<(usize, f64, f64)>,
     /// The time at s = 0, and what it gains.
     pub(super) time: (f64, f64),
+    /// How much of the sweep is done in a second.
+    pub(super) speed: f64,
     /// The largest length of each row that is known, beside which a row may come to vanish; none yet where it is empty.
     pub(super) lengths: Vec<f64>,
     /// What the rows usually keep beside each other.

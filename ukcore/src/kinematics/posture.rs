@@ -24,8 +24,8 @@ const ALONG: f64 = 0.95;
 const SAME: f64 = 1e-5;
 
 impl Curve<'_> {
-    /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`, where the sweep goes on by
-    /// `speed` in a second; `None` where the drive stands still.
+    /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`; `None` where the drive stands
+    /// still.
     ///
     /// # Errors
     /// [`Error::At`] with [`Error::OffConstraint`] where not all constraints are met, and with [`Error::NonFinite`].
@@ -34,13 +34,12 @@ impl Curve<'_> {
         path: &Path,
         index: usize,
         s: f64,
-        speed: f64,
     ) -> Result<Option<Posture>, Error> {
         let [a, b] = [&path.places[index], &path.places[index + 1]];
         let guess = self.guess(a, b, s);
         if self.rows(&guess, guess.len() - 1).margin >= NEAR * self.margin {
             let (q, rows) = self.position(guess, s)?;
-            return Ok(self.moved(q, s, &a.way, &rows, speed));
+            return Ok(self.moved(q, s, &a.way, &rows));
         }
         let reach = |from: &Place, step: f64| {
             let there = self.beyond(from, step);
@@ -50,7 +49,7 @@ impl Curve<'_> {
         for _ in 0..HALVINGS {
             let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
             let step = aside * a.speed() * self.units[guess.len() - 1];
-            let mean = self.mean(&behind, &ahead, s, step, speed)?;
+            let mean = self.mean([&behind, &ahead], s, step)?;
             if let (Some(now), Some(then)) = (&mean, &before)
                 && self.agree(now, then)
             {
@@ -78,14 +77,7 @@ impl Curve<'_> {
     }
 
     /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch.
-    fn mean(
-        &self,
-        a: &Place,
-        b: &Place,
-        s: f64,
-        step: f64,
-        speed: f64,
-    ) -> Result<Option<Posture>, Error> {
+    fn mean(&self, [a, b]: [&Place; 2], s: f64, step: f64) -> Result<Option<Posture>, Error> {
         let n = self.mech.spec().n();
         let mut mean = Posture {
             state: State::at_rest(self.time_at(s), vec![0.0; n]),
@@ -96,10 +88,9 @@ impl Curve<'_> {
                 let there = s + side * (k + 1) as f64 * step;
                 let guess = self.guess(a, b, there);
                 let (q, rows) = self.position(guess, there)?;
-                let (Some(posture), Some(way)) = (
-                    self.moved(q, there, &a.way, &rows, speed),
-                    rows.along(&a.way),
-                ) else {
+                let (Some(posture), Some(way)) =
+                    (self.moved(q, there, &a.way, &rows), rows.along(&a.way))
+                else {
                     return Ok(None);
                 };
                 if way.dot(&a.way) < ALONG || way.dot(&b.way) < ALONG {
@@ -163,20 +154,13 @@ impl Curve<'_> {
     }
 
     /// Velocities and accelerations at `q`, in the direction `way`.
-    fn moved(
-        &self,
-        q: Vec<f64>,
-        s: f64,
-        way: &DVector<f64>,
-        rows: &Rows,
-        speed: f64,
-    ) -> Option<Posture> {
+    fn moved(&self, q: Vec<f64>, s: f64, way: &DVector<f64>, rows: &Rows) -> Option<Posture> {
         let n = q.len();
         let way = rows.along(way).filter(|way| way[n].abs() > STILL)?;
         let way = way.component_mul(&self.units);
-        let v: Vec<f64> = (0..n).map(|j| way[j] / way[n] * speed).collect();
+        let v: Vec<f64> = (0..n).map(|j| way[j] / way[n] * self.speed).collect();
         let t = self.time_at(s);
-        let acceleration = rows.shortest(&-self.turned(t, &q, &v, self.time.1 * speed));
+        let acceleration = rows.shortest(&-self.turned(t, &q, &v, self.time.1 * self.speed));
         let acceleration = acceleration.component_mul(&self.units);
         let rest = acceleration[n] / way[n];
         let acceleration = (0..n).map(|j| acceleration[j] - rest * way[j]);

@@ -120,8 +120,11 @@ impl<'a> Sweep<'a> {
         };
         let curve = self.curve(|drive| drive.range.clone());
         let (begin, units) = self.place(&curve, &state, from)?;
-        let mut curve = Curve { units, ..curve };
-        let speed = self.speed();
+        let mut curve = Curve {
+            units,
+            speed: self.speed(),
+            ..curve
+        };
         let part = |k: usize| k as f64 / intervals as f64;
         // At its end all is before it.
         let (before, after): (Vec<usize>, Vec<usize>) =
@@ -149,7 +152,7 @@ impl<'a> Sweep<'a> {
                     if limit.is_some_and(|limit| (part(k) - limit).abs() <= AT) {
                         continue;
                     }
-                    postures.extend(curve.posture(&path, index - 1, part(k), speed)?);
+                    postures.extend(curve.posture(&path, index - 1, part(k))?);
                 }
             }
             match path.end {
@@ -201,7 +204,7 @@ impl<'a> Sweep<'a> {
                     format!("do not come from the start to the begin of the sweep: {limit}");
                 Err(Error::invalid("drives", reason))
             }
-            End::Arrived => match curve.posture(&path, path.places.len() - 2, 1.0, 1.0)? {
+            End::Arrived => match curve.posture(&path, path.places.len() - 2, 1.0)? {
                 Some(posture) => Ok(posture.state),
                 None => Err(Error::invalid("drives", "begin at a dead centre")),
             },
@@ -227,6 +230,7 @@ impl<'a> Sweep<'a> {
             units: units(self.mech, self.start).insert_row(n, 1.0),
             fixed,
             time,
+            speed: 1.0,
             lengths: Vec::new(),
             margin: 1.0,
         }

@@ -61,22 +61,7 @@ macro_rules! lanes {
                     c - self * b
                 }
             }
-            #[inline]
-            fn sqrt(self) -> Self {
-                $L::sqrt(self)
-            }
-            #[inline]
-            fn abs(self) -> Self {
-                $L::abs(self)
-            }
-            #[inline]
-            fn min(self, other: Self) -> Self {
-                $L::min(self, other)
-            }
-            #[inline]
-            fn max(self, other: Self) -> Self {
-                $L::max(self, other)
-            }
+            lanes!(@own $L: sqrt() abs() min(other) max(other));
             #[inline]
             fn larger(self, other: Self) -> Self {
                 $L::fast_max(self, other)
@@ -133,6 +118,9 @@ macro_rules! lanes {
             }
             functions!(lanes!($L));
         }
+    };
+    (@own $L:ident: $($name:ident($($other:ident)?))*) => {
+        $(#[inline] fn $name(self $(, $other: Self)?) -> Self { $L::$name(self $(, $other)?) })*
     };
     (@unary $L:ident: $($name:ident)*) => {
         $(#[inline] fn $name(self) -> Self { Self::from_lanes(|k| self.lane(k).$name()) })*

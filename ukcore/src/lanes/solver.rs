@@ -133,7 +133,7 @@ impl<L: Lanes> LaneSolver<L> {
         let own = self.own[lane].get_or_insert_with(|| {
             let mut solver = Solver::new(mechanism, SolverOptions::default());
             if self.projected {
-                solver.project();
+                solver.dropping.project();
             }
             Box::new(Own {
                 solver,
@@ -145,7 +145,7 @@ impl<L: Lanes> LaneSolver<L> {
             own.iter_mut().zip(all).for_each(|(x, y)| *x = y.lane(lane));
         }
         let result = own.solver.acceleration(t.lane(lane), own_q, own_v, own_out);
-        self.accepted[lane] = own.solver.accepted();
+        self.accepted[lane] = own.solver.dropping.accepted;
         if let Err(error) = result {
             own_out.fill(f64::NAN);
             self.errors[lane] = Some(error);

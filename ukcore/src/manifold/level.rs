@@ -28,14 +28,6 @@ impl Level {
             Level::Velocity => (other, x),
         }
     }
-
-    /// φ, or φ̇ and ψ, into the first of `out`.
-    fn residual<S: Scalar>(self, mech: &Prepared<S>, t: S, x: &[S], other: &[S], out: &mut [S]) {
-        match self {
-            Level::Position => mech.residual(t, x, &mut out[..mech.spec().holonomic]),
-            Level::Velocity => mech.residual_rate(t, other, x, out),
-        }
-    }
 }
 
 /// The equations of one level at one time for x: q where `other` is q̇, or q̇ where `other` is q.
@@ -77,8 +69,12 @@ impl<'a, S: Scalar> At<'a, S> {
         spec.structure.straight_line && self.rows() == spec.m()
     }
 
+    /// φ, or φ̇ and ψ, into the first of `out`.
     pub(super) fn residual(&self, x: &[S], out: &mut [S]) {
-        self.level.residual(self.mech, self.t, x, self.other, out);
+        match self.level {
+            Level::Position => self.mech.residual(self.t, x, &mut out[..self.rows()]),
+            Level::Velocity => self.mech.residual_rate(self.t, self.other, x, out),
+        }
     }
 
     /// A, all rows.

@@ -16,50 +16,89 @@ use crate::rounding::Rounded;
 use crate::scalar::{Scalar, Sloped};
 use crate::spec::{Guess, OutputSpec, Spec};
 
-/// The equations of motion and the constraints, in numbers `S`.
-pub trait Equations<S>: Send + Sync + 'static {
-    /// [`Mechanism::prepare`].
-    fn prepare(&self, given: &[S], prepared: &mut [S]);
-    /// [`Mechanism::residual`].
-    fn residual(&self, prepared: &[S], t: S, q: &[S], phi: &mut [S]);
-    /// [`Mechanism::residual_rate`].
-    fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]);
-    /// [`Mechanism::dynamics`].
-    fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
-}
-
-/// What else derivatives are taken of, in numbers `S`.
-pub trait Dynamics<S>: Equations<S> {
-    /// [`Mechanism::switching`].
-    fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]);
-    /// [`Mechanism::acceleration`].
-    fn acceleration(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S;
-}
-
-/// All emitted functions, in numbers `S`.
-pub trait Emitted<S>: Dynamics<S> {
+/// What each table of emitted functions begins with, in numbers `S`.
+pub trait Code<S>: Send + Sync + 'static {
     /// What is known about the mechanism, and its functions in other numbers.
     fn face(&self) -> &'static Face;
-    /// [`Mechanism::mass_matrix`].
-    fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]);
-    /// [`Mechanism::jacobian`].
-    fn jacobian(&self, prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]);
-    /// [`Mechanism::energy`].
-    fn energy(&self, prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
-    /// [`Mechanism::outputs`].
-    fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
-    /// [`Mechanism::integrands`].
-    fn integrands(&self, prepared: &[S], t: S, q: &[S], v: &[S], integrands: &mut [S]);
-    /// [`Mechanism::correction`].
-    fn correction(
-        &self,
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        residual: &[S],
-        out: &mut [S],
-    ) -> S;
+    /// [`Mechanism::prepare`].
+    fn prepare(&self, given: &[S], prepared: &mut [S]);
+}
+
+impl<M: Mechanism, S: Scalar> Code<S> for Of<M> {
+    fn face(&self) -> &'static Face {
+        Of::<M>::FACE
+    }
+    fn prepare(&self, given: &[S], prepared: &mut [S]) {
+        M::prepare(given, prepared);
+    }
+}
+
+/// A table of emitted functions, for numbers `S`: the trait, which each mechanism has, and the methods of [`Prepared`] that call through
+/// it.
+macro_rules! table {
+    ($(#[$about:meta])* $Table:ident: $Before:ident {
+        $($(#[$doc:meta])* fn $name:ident($($x:ident: $X:ty),*) $(-> $out:ty)?;)*
+    }) => {
+        $(#[$about])*
+        pub trait $Table<S>: $Before<S> {
+            $($(#[$doc])* fn $name(&self, prepared: &[S], $($x: $X),*) $(-> $out)?;)*
+        }
+
+        impl<M: Mechanism, S: Scalar> $Table<S> for Of<M> {
+            $(fn $name(&self, prepared: &[S], $($x: $X),*) $(-> $out)? {
+                M::$name(prepared, $($x),*)
+            })*
+        }
+
+        impl<S: Scalar, C: ?Sized + $Table<S>> Prepared<S, C> {
+            $($(#[$doc])* #[inline] pub fn $name(&self, $($x: $X),*) $(-> $out)? {
+                self.code.$name(&self.values, $($x),*)
+            })*
+        }
+    };
+}
+
+table! {
+    /// The equations of motion and the constraints.
+    Equations: Code {
+        /// φ of the h holonomic constraints at (t, q); see [`Mechanism::residual`].
+        fn residual(t: S, q: &[S], phi: &mut [S]);
+        /// φ̇ of the holonomic and φ of the nonholonomic constraints at (t, q, q̇), m numbers; see [`Mechanism::residual_rate`].
+        fn residual_rate(t: S, q: &[S], v: &[S], rate: &mut [S]);
+        /// M, Q, c, A and b at (t, q, q̇); see [`Mechanism::dynamics`].
+        fn dynamics(t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
+    }
+}
+
+table! {
+    /// What else derivatives are taken of.
+    Dynamics: Equations {
+        /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
+        fn switching(t: S, q: &[S], v: &[S], switching: &mut [S]);
+        /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver)
+        /// wraps it with the rank-revealing solve.
+        fn acceleration(t: S, q: &[S], v: &[S], out: &mut [S]) -> S;
+    }
+}
+
+table! {
+    /// All emitted functions.
+    Emitted: Dynamics {
+        /// M at (t, q), n × n, column-major; see [`Mechanism::mass_matrix`].
+        fn mass_matrix(t: S, q: &[S], mass: &mut [S]);
+        /// A at (t, q, q̇), m × n, column-major; see [`Mechanism::jacobian`].
+        fn jacobian(t: S, q: &[S], v: &[S], jacobian: &mut [S]);
+        /// Kinetic and potential energy at (t, q, q̇); see [`Mechanism::energy`].
+        #[must_use]
+        fn energy(t: S, q: &[S], v: &[S]) -> Energy<S>;
+        /// The declared outputs at (t, q, q̇), in the order of [`Spec::outputs`]; see [`Mechanism::outputs`].
+        fn outputs(t: S, q: &[S], v: &[S], outputs: &mut [S]);
+        /// What is integrated along with a motion, at (t, q, q̇), in the order of [`integrals`](Prepared::integrals); see
+        /// [`Mechanism::integrands`].
+        fn integrands(t: S, q: &[S], v: &[S], integrands: &mut [S]);
+        /// The smallest Δ with A Δ = −`residual` in the mass metric, and its certificate; see [`Mechanism::correction`].
+        fn correction(t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S;
+    }
 }
 
 type Inertias = fn(&[f64], &mut dyn FnMut(&'static str, &[f64]));
@@ -99,62 +138,6 @@ impl<M: Mechanism> Of<M> {
         rounded: &Of::<M>(PhantomData),
         varied: &Of::<M>(PhantomData),
     };
-}
-
-impl<M: Mechanism, S: Scalar> Equations<S> for Of<M> {
-    fn prepare(&self, given: &[S], prepared: &mut [S]) {
-        M::prepare(given, prepared);
-    }
-    fn residual(&self, prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
-        M::residual(prepared, t, q, phi);
-    }
-    fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) {
-        M::residual_rate(prepared, t, q, v, rate);
-    }
-    fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
-        M::dynamics(prepared, t, q, v, out);
-    }
-}
-
-impl<M: Mechanism, S: Scalar> Dynamics<S> for Of<M> {
-    fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]) {
-        M::switching(prepared, t, q, v, switching);
-    }
-    fn acceleration(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
-        M::acceleration(prepared, t, q, v, out)
-    }
-}
-
-impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
-    fn face(&self) -> &'static Face {
-        Of::<M>::FACE
-    }
-    fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
-        M::mass_matrix(prepared, t, q, mass);
-    }
-    fn jacobian(&self, prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
-        M::jacobian(prepared, t, q, v, jacobian);
-    }
-    fn energy(&self, prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S> {
-        M::energy(prepared, t, q, v)
-    }
-    fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) {
-        M::outputs(prepared, t, q, v, outputs);
-    }
-    fn integrands(&self, prepared: &[S], t: S, q: &[S], v: &[S], integrands: &mut [S]) {
-        M::integrands(prepared, t, q, v, integrands);
-    }
-    fn correction(
-        &self,
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        residual: &[S],
-        out: &mut [S],
-    ) -> S {
-        M::correction(prepared, t, q, v, residual, out)
-    }
 }
 
 /// A mechanism with its parameters, as an object: one type for all mechanisms, in numbers `S`. What depends on parameters alone is computed
@@ -252,84 +235,13 @@ impl<S: Scalar, C: ?Sized + Equations<S>> Prepared<S, C> {
             *to = S::from_f64(*from);
         }
     }
-
-    /// φ of the h holonomic constraints at (t, q); see [`Mechanism::residual`].
-    #[inline]
-    pub fn residual(&self, t: S, q: &[S], phi: &mut [S]) {
-        self.code.residual(&self.values, t, q, phi);
-    }
-
-    /// φ̇ of the holonomic and φ of the nonholonomic constraints at (t, q, q̇), m numbers; see [`Mechanism::residual_rate`].
-    #[inline]
-    pub fn residual_rate(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
-        self.code.residual_rate(&self.values, t, q, v, rate);
-    }
-
-    /// M, Q, c, A and b at (t, q, q̇); see [`Mechanism::dynamics`].
-    #[inline]
-    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
-        self.code.dynamics(&self.values, t, q, v, out);
-    }
-}
-
-impl<S: Scalar, C: ?Sized + Dynamics<S>> Prepared<S, C> {
-    /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
-    #[inline]
-    pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
-        self.code.switching(&self.values, t, q, v, switching);
-    }
-
-    /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps
-    /// it with the rank-revealing solve.
-    #[inline]
-    pub fn acceleration(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
-        self.code.acceleration(&self.values, t, q, v, out)
-    }
 }
 
 impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
-    /// M at (t, q), n × n, column-major; see [`Mechanism::mass_matrix`].
-    #[inline]
-    pub fn mass_matrix(&self, t: S, q: &[S], mass: &mut [S]) {
-        self.code.mass_matrix(&self.values, t, q, mass);
-    }
-
-    /// A at (t, q, q̇), m × n, column-major; see [`Mechanism::jacobian`].
-    #[inline]
-    pub fn jacobian(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
-        self.code.jacobian(&self.values, t, q, v, jacobian);
-    }
-
-    /// Kinetic and potential energy at (t, q, q̇); see [`Mechanism::energy`].
-    #[inline]
-    #[must_use]
-    pub fn energy(&self, t: S, q: &[S], v: &[S]) -> Energy<S> {
-        self.code.energy(&self.values, t, q, v)
-    }
-
-    /// The declared outputs at (t, q, q̇), in the order of [`Spec::outputs`]; see [`Mechanism::outputs`].
-    #[inline]
-    pub fn outputs(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
-        self.code.outputs(&self.values, t, q, v, outputs);
-    }
-
     /// Names of what is integrated along with a motion.
     #[must_use]
     pub fn integrals(&self) -> &'static [OutputSpec] {
         self.code.face().integrals
-    }
-
-    /// What is integrated along with a motion, at (t, q, q̇), in the order of [`integrals`](Prepared::integrals); see
-    /// [`Mechanism::integrands`].
-    #[inline]
-    pub fn integrands(&self, t: S, q: &[S], v: &[S], integrands: &mut [S]) {
-        self.code.integrands(&self.values, t, q, v, integrands);
-    }
-
-    /// The smallest Δ with A Δ = −`residual` in the mass metric, and its certificate; see [`Mechanism::correction`].
-    #[inline]
-    pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
-        self.code.correction(&self.values, t, q, v, residual, out)
     }
 
     /// Whether `other` is the same mechanism, whatever its parameters are.

@@ -1,8 +1,6 @@
 //! Numbers of 31 digits, for references: emitted code run on them tells how far the same code in `f64` is off.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, operators};
 
 /// An unevaluated sum of two `f64`, 106 bits in all (Dekker 1971; Hida, Li & Bailey 2001).
 ///
@@ -113,50 +111,30 @@ impl DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        let (s, e) = two_sum(self.hi, o.hi);
-        let (t, f) = two_sum(self.lo, o.lo);
+operators! { [] DoubleDouble:
+    Add add |a, b| {
+        let (s, e) = two_sum(a.hi, b.hi);
+        let (t, f) = two_sum(a.lo, b.lo);
         let first = quick_two_sum(s, e + t);
         quick_two_sum(first.hi, first.lo + f)
-    }
-}
-impl Sub for DoubleDouble {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + -o
-    }
-}
-impl Mul for DoubleDouble {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        let (p, e) = two_product(self.hi, o.hi);
-        quick_two_sum(p, e + (self.hi * o.lo + self.lo * o.hi))
-    }
-}
-impl Div for DoubleDouble {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        let mut quotient = DoubleDouble::from_f64(self.hi / o.hi);
+    };
+    Sub sub |a, b| a + -b;
+    Mul mul |a, b| {
+        let (p, e) = two_product(a.hi, b.hi);
+        quick_two_sum(p, e + (a.hi * b.lo + a.lo * b.hi))
+    };
+    Div div |a, b| {
+        let mut quotient = DoubleDouble::from_f64(a.hi / b.hi);
         if !quotient.hi.is_finite() || quotient.hi == 0.0 {
             return quotient;
         }
         for _ in 0..2 {
-            let rest = self - quotient * o;
-            quotient = quotient + DoubleDouble::from_f64(rest.hi / o.hi);
+            let rest = a - quotient * b;
+            quotient = quotient + DoubleDouble::from_f64(rest.hi / b.hi);
         }
         quotient
-    }
-}
-impl Neg for DoubleDouble {
-    type Output = Self;
-    fn neg(self) -> Self {
-        DoubleDouble {
-            hi: -self.hi,
-            lo: -self.lo,
-        }
-    }
+    };
+    Neg neg |a| DoubleDouble { hi: -a.hi, lo: -a.lo };
 }
 
 impl Scalar for DoubleDouble {

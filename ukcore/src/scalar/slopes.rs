@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::tape::{Functions, Tape, play, player};
-use super::{Dual, Scalar};
+use super::{Dual, Scalar, operators};
 
 /// The derivative of a value in numbers `S`, as a [`Dual`] carries it: a number, along one direction, or [`Slopes`] along several.
 pub trait Slope<S>:
@@ -93,17 +93,14 @@ impl Slopes {
     }
 }
 
-macro_rules! operator {
+operators! { [] Slopes:
+    Add add |a, b| Slopes(std::array::from_fn(|k| a.0[k] + b.0[k]));
+    Sub sub |a, b| Slopes(std::array::from_fn(|k| a.0[k] - b.0[k]));
+    Neg neg |a| a.map(|slope| -slope);
+}
+
+macro_rules! by_number {
     ($($name:ident $function:ident: $operator:tt;)*) => {
-        $(impl $name for Slopes {
-            type Output = Self;
-            #[inline]
-            fn $function(self, o: Self) -> Self {
-                Slopes(std::array::from_fn(|k| self.0[k] $operator o.0[k]))
-            }
-        })*
-    };
-    (by $($name:ident $function:ident: $operator:tt;)*) => {
         $(impl $name<f64> for Slopes {
             type Output = Self;
             #[inline]
@@ -113,16 +110,7 @@ macro_rules! operator {
         })*
     };
 }
-operator!(Add add: +; Sub sub: -;);
-operator!(by Mul mul: *; Div div: /;);
-
-impl Neg for Slopes {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.map(|slope| -slope)
-    }
-}
+by_number!(Mul mul: *; Div div: /;);
 
 impl Slope<f64> for Slopes {
     const READ: bool = true;

@@ -26,9 +26,10 @@ pub(super) struct Agenda {
     sign: f64,
     /// Times nearer to the end than this are the end.
     rounding: f64,
-    /// Samples taken so far that did not come by themselves, and the time of the next one.
-    taken: usize,
-    next: Option<f64>,
+    /// Samples taken so far that did not come by themselves at the end of a step, to [return to](Agenda::return_to), and the time of the
+    /// next one.
+    pub(super) taken: usize,
+    pub(super) next: Option<f64>,
 }
 
 impl Agenda {
@@ -51,19 +52,9 @@ impl Agenda {
         agenda
     }
 
-    /// Time of the next sample that does not come by itself at the end of a step.
-    pub(super) fn next(&self) -> Option<f64> {
-        self.next
-    }
-
     /// The next sample is taken.
     pub(super) fn take(&mut self) {
         self.return_to(self.taken + 1);
-    }
-
-    /// Number of samples taken so far, to [return to](Agenda::return_to).
-    pub(super) fn taken(&self) -> usize {
-        self.taken
     }
 
     /// Only `taken` samples count as taken.

@@ -6,6 +6,7 @@
 //! motion passes it in the branch it came on: the one without a jump of its velocity. Where e is not 0 no motion gets there: it turns,
 //! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
+use super::vanishing::Vanishing;
 use crate::assemble::State;
 use crate::dense::Dense;
 use crate::integrate::Singular;
@@ -66,20 +67,12 @@ pub(super) struct Search<'a> {
     shares: Vec<Vec<f64>>,
 }
 
-/// A row of A that vanishes, and how large it has been, measured by a scale.
-#[derive(Clone, Copy)]
-pub(super) struct Vanishing<'a> {
-    pub(super) row: usize,
-    pub(super) size: f64,
-    pub(super) scale: &'a [f64],
-}
-
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
 /// Where a row is known to vanish by itself, its size is compared with the given one.
 pub(super) fn find(
     mech: &Prepared,
     near: &State,
-    vanishing: Option<Vanishing<'_>>,
+    vanishing: Option<&Vanishing>,
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     if let Some(vanishing) = vanishing {
@@ -188,17 +181,16 @@ pub(super) fn at(
 }
 
 /// Whether a row of A that is small at a state, beside what it has been, says something there that the others do not.
-pub(super) fn counts(mech: &Prepared, near: &State, vanishing: Vanishing<'_>) -> bool {
-    let mut search = Search::new(mech, near);
+pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
+    let mut search = Search::new(mech, &vanishing.near);
     search.compare(vanishing);
-    let Vanishing { row, size, scale } = vanishing;
-    if search.factor(&near.v).is_none() {
+    if search.factor(&vanishing.near.v).is_none() {
         return false;
     }
     let cod = &search.dense.cod;
-    let place = cod.order().iter().position(|c| *c == row);
+    let place = cod.order().iter().position(|c| *c == vanishing.row);
     let left = place.and_then(|place| cod.pivots().get(place));
-    let all = search.terms.rows().largest(row, scale) / size;
+    let all = vanishing.size_in(search.terms.rows());
     left.is_some_and(|left| *left > RANK_CEILING * all)
 }
 
@@ -223,9 +215,9 @@ impl<'a> Search<'a> {
     }
 
     /// Compares a row with what it has been.
-    fn compare(&mut self, Vanishing { row, size, scale }: Vanishing<'_>) {
-        self.dense.sizes[row] = size;
-        self.dense.measure.keep(scale);
+    fn compare(&mut self, vanishing: &Vanishing) {
+        self.dense.sizes[vanishing.row] = vanishing.size;
+        self.dense.measure.keep(&vanishing.scale);
     }
 
     /// Evaluates and factors the equations where the search stands, and takes the rank.

@@ -6,6 +6,8 @@
 //! a singular position from one that has turned beside it, however far both states are from the place; a Cholesky factorisation of S
 //! decides.
 
+use std::collections::BTreeSet;
+
 use crate::mechanism::Prepared;
 
 /// Pivots of a factorisation below this share of their diagonals are of rows that the others imply.
@@ -24,7 +26,7 @@ pub(super) struct Independence {
     /// Rows that others do not imply.
     counts: Vec<bool>,
     /// Whether none is left out.
-    whole: bool,
+    pub(super) whole: bool,
     /// The lower triangle: for each term of S its place, its entries of A and its coordinate.
     terms: Vec<[u32; 4]>,
     /// Rows in the order of elimination, and where their columns of the factor begin and end.
@@ -42,53 +44,6 @@ struct Column {
     row: usize,
     diagonal: usize,
     end: usize,
-}
-
-/// Sets of rows, a word for 64 of them.
-#[derive(Clone)]
-struct Sets {
-    words: usize,
-    bits: Vec<u64>,
-}
-
-impl Sets {
-    fn new(m: usize) -> Self {
-        let words = m.div_ceil(64);
-        Sets {
-            words,
-            bits: vec![0; words * m],
-        }
-    }
-
-    fn of(&self, c: usize) -> &[u64] {
-        &self.bits[c * self.words..][..self.words]
-    }
-
-    fn join(&mut self, c: usize, other: &[u64]) {
-        let pairs = self.bits[c * self.words..][..self.words]
-            .iter_mut()
-            .zip(other);
-        pairs.for_each(|(x, y)| *x |= y);
-    }
-
-    fn remove(&mut self, c: usize, d: usize) {
-        self.bits[c * self.words + d / 64] &= !(1 << (d % 64));
-    }
-
-    fn size(&self, c: usize) -> u32 {
-        self.of(c).iter().map(|x| x.count_ones()).sum()
-    }
-
-    fn members(&self, c: usize) -> Vec<usize> {
-        let words = self.of(c).iter().enumerate();
-        words
-            .flat_map(|(k, word)| {
-                (0..64)
-                    .filter(move |b| word >> b & 1 == 1)
-                    .map(move |b| 64 * k + b)
-            })
-            .collect()
-    }
 }
 
 impl Independence {
@@ -135,11 +90,6 @@ impl Independence {
         }
     }
 
-    /// Whether no row is left out that others imply.
-    pub(super) fn is_whole(&self) -> bool {
-        self.whole
-    }
-
     /// Chooses the order of elimination, by least degree, and finds the places of the factor.
     fn arrange(&mut self, mech: &Prepared) {
         let (n, m) = (mech.spec().n(), mech.spec().m());
@@ -149,30 +99,28 @@ impl Independence {
                 rows[*i].push(*c);
             }
         }
-        let mut sets = Sets::new(m);
+        // The rows that each shares a coordinate with.
+        let mut beside = vec![BTreeSet::new(); m];
         for column in &rows {
-            let mut all = vec![0; sets.words];
-            column.iter().for_each(|c| all[c / 64] |= 1 << (c % 64));
-            column.iter().for_each(|c| sets.join(*c, &all));
+            for c in column {
+                beside[*c].extend(column.iter().filter(|d| *d != c));
+            }
         }
-        (0..m).for_each(|c| sets.remove(c, c));
         let mut left: Vec<usize> = (0..m).filter(|c| self.counts[*c]).collect();
         let mut places = vec![u32::MAX; m * m];
         let mut parts = Vec::with_capacity(left.len());
         self.columns.clear();
         let mut end = 0;
-        while let Some(next) = (0..left.len()).min_by_key(|k| sets.size(left[*k])) {
+        while let Some(next) = (0..left.len()).min_by_key(|k| beside[left[*k]].len()) {
             let row = left.swap_remove(next);
-            let part = sets.members(row);
-            let own = sets.of(row).to_vec();
+            let part: Vec<usize> = std::mem::take(&mut beside[row]).into_iter().collect();
             let diagonal = end;
             places[row * m + row] = diagonal as u32;
             for (k, c) in part.iter().enumerate() {
                 (places[row * m + c], places[c * m + row]) =
                     ((end + 1 + k) as u32, (end + 1 + k) as u32);
-                sets.join(*c, &own);
-                sets.remove(*c, *c);
-                sets.remove(*c, row);
+                beside[*c].extend(part.iter().filter(|d| *d != c));
+                beside[*c].remove(&row);
             }
             end += 1 + part.len();
             self.columns.push(Column { row, diagonal, end });
@@ -216,20 +164,29 @@ impl Independence {
 
     /// Leaves out the rows whose pivots say that others imply them. Returns whether there were none.
     fn imply(&mut self) -> bool {
-        let mut changed = &self.changed[..];
+        let mut counts = std::mem::take(&mut self.counts);
         let mut none = true;
+        self.eliminate(|row, pivot, own| {
+            counts[row] = pivot > IMPLIED * own;
+            none &= counts[row];
+            Some(counts[row])
+        });
+        self.counts = counts;
+        none
+    }
+
+    /// Eliminates S column by column, but for those that `judge` leaves out by their row, their pivot and what it was; until it gives none.
+    fn eliminate(&mut self, mut judge: impl FnMut(usize, f64, f64) -> Option<bool>) -> Option<()> {
+        let mut changed = &self.changed[..];
         for (Column { row, diagonal, end }, own) in self.columns.iter().zip(&self.own) {
-            let (pivot, part) = (self.values[*diagonal], end - diagonal - 1);
+            let part = end - diagonal - 1;
             let (mine, rest) = changed.split_at(part * (part + 1) / 2);
             changed = rest;
-            let counts = pivot > IMPLIED * own;
-            self.counts[*row] = counts;
-            none &= counts;
-            if counts {
+            if judge(*row, self.values[*diagonal], *own)? {
                 eliminate(&mut self.values, *diagonal, *end, mine);
             }
         }
-        none
+        Some(())
     }
 
     /// The least part of a row, as a share of its length, that those eliminated before it do not have, for A at a state.
@@ -240,18 +197,11 @@ impl Independence {
     /// The least share that a pivot of S, for A at two states, has of its diagonal; `None` if S is not positive definite.
     pub(super) fn share(&mut self, a: &[f64], b: &[f64]) -> Option<f64> {
         self.load(a, b);
-        let mut changed = &self.changed[..];
         let mut least = 1.0_f64;
-        for (Column { diagonal, end, .. }, own) in self.columns.iter().zip(&self.own) {
-            let (pivot, part) = (self.values[*diagonal], end - diagonal - 1);
-            if pivot.is_nan() || pivot <= 0.0 {
-                return None;
-            }
+        self.eliminate(|_, pivot, own| {
             least = least.min(pivot / own);
-            let (mine, rest) = changed.split_at(part * (part + 1) / 2);
-            changed = rest;
-            eliminate(&mut self.values, *diagonal, *end, mine);
-        }
+            (pivot > 0.0).then_some(true)
+        })?;
         Some(least)
     }
 }

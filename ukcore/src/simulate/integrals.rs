@@ -54,7 +54,9 @@ pub(super) struct Integrals {
     floor: f64,
     /// Longest interval.
     longest: f64,
-    /// Each up to the last accepted step, and up to where the step in hand is taken.
+    /// Time up to which the step in hand is taken.
+    at: f64,
+    /// Each up to the last accepted step, and up to there.
     accepted: Vec<Sum>,
     reached: Vec<Sum>,
     values: Vec<f64>,
@@ -88,6 +90,7 @@ impl Integrals {
             relative,
             floor,
             longest: span.abs() / RUN_PARTS,
+            at: 0.0,
             accepted: vec![Sum::default(); count],
             reached: vec![Sum::default(); count],
             values: vec![0.0; count],
@@ -104,8 +107,9 @@ impl Integrals {
         self.values.len()
     }
 
-    /// A step begins where the last accepted one ended.
-    pub(super) fn begin(&mut self) {
+    /// A step begins at time `t`, where the last accepted one ended.
+    pub(super) fn begin(&mut self, t: f64) {
+        self.at = t;
         self.reached.copy_from_slice(&self.accepted);
         self.reached.iter_mut().for_each(|sum| sum.moved = 0.0);
         self.noise.fill(0.0);
@@ -123,8 +127,9 @@ impl Integrals {
         (&self.values, error)
     }
 
-    /// Goes on from time `a` to `b` along the step in hand, and returns the values there.
-    pub(super) fn go(&mut self, states: &mut Along<'_>, a: f64, b: f64) -> Result<&[f64], Error> {
+    /// Goes on to time `b` along the step in hand, and returns the values there.
+    pub(super) fn go(&mut self, states: &mut Along<'_>, b: f64) -> Result<&[f64], Error> {
+        let a = std::mem::replace(&mut self.at, b);
         let longest = self.longest.min(states.span().abs() / PARTS);
         let parts = ((b - a).abs() / longest).ceil().clamp(1.0, MOST_PARTS) as u32;
         let place = |k: u32| match k == parts {

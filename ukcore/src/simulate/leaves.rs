@@ -28,13 +28,11 @@ struct Row {
 /// What has become of the rows of A between two states.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Compared {
-    /// The largest change of a row, as a share of what it is at the last.
-    pub(super) rows: f64,
+    /// The largest change of a row, as a share of what it is at the last; and half of what such changes gain in as much time again, going
+    /// on to gain as they did since those before them.
+    pub(super) rows: [f64; 2],
     /// The same, of the entries of its own of a row that has some.
-    pub(super) own: f64,
-    /// Half of what such changes gain in as much time again, going on to gain as they did since those before them.
-    pub(super) rows_gain: f64,
-    pub(super) own_gain: f64,
+    pub(super) own: [f64; 2],
     /// Whether these are not reversed.
     pub(super) kept: bool,
 }
@@ -64,16 +62,12 @@ impl Sums {
         self
     }
 
-    /// Makes `change` and `bend` at least those of the vector, as shares of what it is at the last, squared.
-    fn share(self, change: &mut f64, bend: &mut f64) {
+    /// Makes the largest change and bend at least those of the vector, as shares of what it is at the last, squared.
+    fn share(self, most: &mut [f64; 2]) {
         let scale = self.square.recip();
-        let larger = |most: &mut f64, x: f64| {
-            if x > *most {
-                *most = x;
-            }
-        };
-        larger(change, self.change * scale);
-        larger(bend, self.bend * scale);
+        for (most, x) in most.iter_mut().zip([self.change, self.bend]) {
+            *most = most.max(x * scale);
+        }
     }
 }
 
@@ -167,27 +161,21 @@ impl Leaves {
             let own = Sums::default().add(mine, a, ratio);
             let all = own.add(rest, a, ratio);
             (squares[*row], products[*row]) = (all.square, all.product);
-            all.share(&mut compared.rows, &mut compared.rows_gain);
+            all.share(&mut compared.rows);
             if !mine.is_empty() {
-                own.share(&mut compared.own, &mut compared.own_gain);
+                own.share(&mut compared.own);
                 compared.kept &= own.product > 0.0;
             }
         }
-        let Compared {
-            rows,
-            own,
-            rows_gain,
-            own_gain,
-            ..
-        } = &mut compared;
         // In the middle of the time between the first two it was as fast as it went there on an average; at rest, where nothing came
         // before.
         let half = match ratio {
             0.0 => 1.0,
             ratio => ratio / (1.0 + ratio),
         };
-        (*rows, *own) = (rows.sqrt(), own.sqrt());
-        (*rows_gain, *own_gain) = (half * rows_gain.sqrt(), half * own_gain.sqrt());
+        for [change, gain] in [&mut compared.rows, &mut compared.own] {
+            (*change, *gain) = (change.sqrt(), half * gain.sqrt());
+        }
         compared
     }
 }

@@ -2,7 +2,7 @@
 
 use super::crossing;
 use super::vanishing::{Loss, Vanishing};
-use crate::assemble::State;
+use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
 use crate::diagnose;
 use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
@@ -41,17 +41,14 @@ pub(super) fn check_branch(
     weakest: f64,
     step: &Step<'_>,
 ) -> Result<(), Error> {
-    if weakest > 16.0 * SINGULAR {
-        return Ok(());
-    }
-    if weakest_at(solver, step.new)? > SINGULAR {
+    if weakest > 16.0 * SINGULAR || weakest_at(solver, step.new)? > SINGULAR {
         return Ok(());
     }
     let error = singular(solver, SINGULAR);
-    if weakest_at(solver, step.old)? > SINGULAR {
-        return Err(error);
+    match weakest_at(solver, step.old)? > SINGULAR {
+        true => Err(error),
+        false => Ok(()),
     }
-    Ok(())
 }
 
 /// An error that names the constraints whose significance in the last solution was not above `significance`.
@@ -64,7 +61,7 @@ fn singular(solver: &Solver, significance: f64) -> Error {
 /// The least significance of a constraint that counts at a state.
 fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
     let mut acceleration = vec![0.0; at.q.len()];
-    let solved = solver.acceleration_in_run(at.t, at.q, at.v, &mut acceleration);
+    let solved = solver.acceleration_in_run((at.t, at.q, at.v), &mut acceleration);
     // In any case: what is left there would hide what the next step meets.
     let weakest = solver.take_weakest();
     solved.map(|()| weakest)
@@ -91,14 +88,9 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     };
     // Where velocities jump, positions are off by no more than what that makes of them within the step.
     let position = change(q, &near_q) >= 2.0 * (t - t_old).abs() * change(v, &near_v);
-    let residual = |t: f64| {
-        let mut residual = vec![0.0; spec.m()];
-        if position {
-            followed.residual(t, q, &mut residual[..spec.holonomic]);
-        } else {
-            followed.residual_rate(t, &near_q, v, &mut residual);
-        }
-        residual
+    let residual = |t: f64| match position {
+        true => Residuals::at(&followed, t, q, v).position,
+        false => Residuals::at(&followed, t, &near_q, v).velocity,
     };
     // What the time alone has made of it since the last step, which may have gone just onto the jump.
     let after = residual(t);
@@ -112,7 +104,7 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     if jumps.iter().any(|r| *r != 0.0) {
         return Some(Error::Jump {
             level: if position { "position" } else { "velocity" },
-            constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
+            constraints: diagnose::offending(spec, &jumps, |_| 1.0),
         });
     }
     let (q, v) = (&near_q[..], &near_v[..]);
@@ -124,9 +116,8 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
 /// there without a gradient, as a length does that is zero.
 pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
     let spec = mechanism.spec();
-    let mut residual = vec![0.0; spec.holonomic];
-    mechanism.residual(at.t, at.q, &mut residual);
-    let ended = diagnose::offending(spec, &residual, &vec![1.0; spec.holonomic]);
+    let residual = Residuals::at(mechanism, at.t, at.q, at.v).position;
+    let ended = diagnose::offending(spec, &residual, |_| 1.0);
     let constraints: Vec<String> = ended.into_iter().map(|(name, _)| name).collect();
     (!constraints.is_empty()).then_some(Error::Singular { constraints })
 }
@@ -144,18 +135,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         row, near, reached, ..
     } = &found;
     let spec = mech.spec();
-    let lost = crossing::Vanishing {
-        row: *row,
-        size: found.size,
-        scale: &found.scale,
-    };
-    if !crossing::counts(mech, near, lost) {
+    if !crossing::counts(mech, &found) {
         return None;
     }
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
-        if let Some(position) = crossing::find(mech, near, Some(lost)) {
+        if let Some(position) = crossing::find(mech, near, Some(&found)) {
             return Some(Singular {
                 significance: *reached,
                 ..position
@@ -165,8 +151,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
         let mut jacobian = vec![0.0; near.q.len() * spec.m()];
         mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
-        let rows = Rows::all(&jacobian, spec.m());
-        if rows.largest(*row, &found.scale) <= RANK_CEILING * found.size {
+        if found.size_in(Rows::all(&jacobian, spec.m())) <= RANK_CEILING {
             return None;
         }
     }
@@ -338,7 +323,7 @@ pub(super) fn explain(
     {
         *last += &format!("; {cause}");
     }
-    trouble.into_error()
+    trouble.state.locate(trouble.error)
 }
 
 /// The terms that divide by a length which is zero at a state.

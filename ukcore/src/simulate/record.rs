@@ -20,11 +20,11 @@ pub(super) struct Recorder<'s> {
     pub(super) trajectory: Trajectory,
     /// For steps, and samples and events within them.
     pub(super) projector: Projector,
-    agenda: Agenda,
+    pub(super) agenda: Agenda,
     watch: Watch,
     /// Takes what is not to be kept, until it wants no more.
     sink: Option<Sink<'s>>,
-    handed: ControlFlow<()>,
+    pub(super) handed: ControlFlow<()>,
     /// Time of the last sample.
     sampled: Option<f64>,
     /// A state within a step.
@@ -56,16 +56,6 @@ impl<'s> Recorder<'s> {
         }
     }
 
-    /// Whether the sink wants no more.
-    pub(super) fn has_ended(&self) -> bool {
-        self.handed.is_break()
-    }
-
-    /// The next time at which an interpolant is wanted, if any.
-    pub(super) fn next_sample(&self) -> Option<f64> {
-        self.agenda.next()
-    }
-
     /// Events and sample at the start of the run.
     pub(super) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
         let count = self.integrals.as_ref().map_or(0, Integrals::len);
@@ -82,20 +72,14 @@ impl<'s> Recorder<'s> {
     /// Takes from a step what is wanted of it, and nothing if that fails. Returns the error of what is integrated along it as a part of
     /// what is allowed: if that is above 1, nothing is taken either.
     pub(super) fn step(&mut self, step: &Step<'_>) -> Result<f64, Error> {
-        let taken = self.agenda.taken();
-        let trajectory = &self.trajectory;
-        let (samples, values) = (trajectory.times.len(), trajectory.states.len());
-        let sums = trajectory.integrals.len();
-        let (events, ending) = (trajectory.events.len(), trajectory.ending);
+        let taken = self.agenda.taken;
+        let Trajectory { ending, .. } = self.trajectory;
+        let (samples, events) = (self.trajectory.len(), self.trajectory.events.len());
         let recorded = self.record(step);
         if !matches!(recorded, Ok(error) if error <= 1.0) {
-            let trajectory = &mut self.trajectory;
             self.agenda.return_to(taken);
-            trajectory.times.truncate(samples);
-            trajectory.states.truncate(values);
-            trajectory.integrals.truncate(sums);
-            trajectory.events.truncate(events);
-            trajectory.ending = ending;
+            self.trajectory.truncate(samples, events);
+            self.trajectory.ending = ending;
             return recorded;
         }
         self.watch.accept();
@@ -138,21 +122,20 @@ impl<'s> Recorder<'s> {
             }
         }
         if let Some(integrals) = &mut self.integrals {
-            integrals.begin();
+            integrals.begin(step.old.t);
         }
-        let mut integrated = step.old.t;
         let sign = if step.until < step.old.t { -1.0 } else { 1.0 };
         let passed = |t: &f64| sign * t <= sign * t_stop;
-        while let Some(t) = self.agenda.next().filter(passed) {
+        while let Some(t) = self.agenda.next.filter(passed) {
             within.consistent(t, between)?;
             self.agenda.take();
+            let sums = sums(&mut self.integrals, &mut within, t)?;
             trajectory.times.push(t);
             trajectory.states.extend_from_slice(between);
-            let sums = sums(&mut self.integrals, &mut within, &mut integrated, t)?;
             trajectory.integrals.extend_from_slice(sums);
         }
         within.consistent(t_stop, between)?;
-        sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
+        sums(&mut self.integrals, &mut within, t_stop)?;
         let reached = self.integrals.as_ref().map(Integrals::reached);
         let (integrals, error) = reached.unwrap_or_default();
         if error > 1.0 {
@@ -193,10 +176,7 @@ impl<'s> Recorder<'s> {
         if self.handed.is_continue() {
             self.handed = hand_all();
         }
-        trajectory.times.clear();
-        trajectory.states.clear();
-        trajectory.integrals.clear();
-        trajectory.events.clear();
+        trajectory.truncate(0, 0);
     }
 
     /// The state with which the run ended becomes its last sample, if samples are not at given times only.
@@ -217,15 +197,20 @@ impl<'s> Recorder<'s> {
 
     /// Projects the state at the end of a step, and counts it.
     pub(super) fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
-        project(&mut self.projector, &mut self.trajectory.work, t, (q, v))
+        let work = &mut self.trajectory.work;
+        work.projections += 1;
+        let position = self.projector.position(t, q, v)?;
+        work.projection_iterations += position.iterations;
+        let velocity = self.projector.velocity(t, q, v)?;
+        work.projection_iterations += velocity.iterations;
+        Ok(())
     }
 }
 
-/// The integrals at `t`, which go on from time `at`.
+/// The integrals at `t`.
 fn sums<'a>(
     integrals: &'a mut Option<Integrals>,
     within: &mut Within<'_, '_>,
-    at: &mut f64,
     t: f64,
 ) -> Result<&'a [f64], Error> {
     let Some(integrals) = integrals else {
@@ -240,22 +225,7 @@ fn sums<'a>(
         to: new.t,
         error,
     };
-    integrals.go(&mut along, std::mem::replace(at, t), t)
-}
-
-/// Projects a state, positions first, and counts it.
-fn project(
-    projector: &mut Projector,
-    work: &mut Work,
-    t: f64,
-    (q, v): (&mut [f64], &mut [f64]),
-) -> Result<(), Error> {
-    work.projections += 1;
-    let position = projector.position(t, q, v)?;
-    work.projection_iterations += position.iterations;
-    let velocity = projector.velocity(t, q, v)?;
-    work.projection_iterations += velocity.iterations;
-    Ok(())
+    integrals.go(&mut along, t)
 }
 
 /// The states of one step.

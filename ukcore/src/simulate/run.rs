@@ -55,7 +55,7 @@ impl Run<'_> {
             self.recorder.trajectory.ending = Ending::Completed;
             return Ok(());
         }
-        if self.recorder.has_ended() {
+        if self.recorder.handed.is_break() {
             self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok(());
         }
@@ -97,11 +97,11 @@ impl Run<'_> {
 
 impl Problem for Run<'_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
-        if self.solver.goes_straight(at.t, at.q, at.v, out) {
+        if self.solver.goes_straight((at.t, at.q, at.v), out) {
             return Ok(());
         }
         let weakest = self.solver.weakest();
-        let result = self.solver.goes_round(at.t, at.q, at.v, out);
+        let result = self.solver.goes_round((at.t, at.q, at.v), out);
         if self.solver.weakest() < weakest {
             self.nearest = Some(at.to_state());
         }
@@ -125,20 +125,14 @@ impl Problem for Run<'_> {
             return Ok(());
         }
         let result = self.recorder.project(t, q, v);
-        self.solver.judge(result.is_ok());
+        self.solver.dropping.judge(result.is_ok());
         result
     }
 
-    fn project_along(
-        &mut self,
-        t: f64,
-        base: &[f64],
-        q: &mut [f64],
-        shift: &mut [f64],
-    ) -> Result<(), Error> {
+    fn project_along(&mut self, t: f64, base: &[f64], moved: [&mut [f64]; 2]) -> Result<(), Error> {
         let work = &mut self.recorder.trajectory.work;
         work.projections += 1;
-        let correction = (self.recorder.projector).position_along(t, base, q, shift)?;
+        let correction = (self.recorder.projector).position_along(t, base, moved)?;
         work.projection_iterations += correction.iterations;
         Ok(())
     }
@@ -191,7 +185,7 @@ impl Problem for Run<'_> {
     }
 
     fn next_sample(&self) -> Option<f64> {
-        self.recorder.next_sample()
+        self.recorder.agenda.next
     }
 
     fn switches(&self) -> usize {
@@ -224,7 +218,7 @@ impl Problem for Run<'_> {
 
     fn set_branch(&mut self, k: usize, branch: Branch) {
         self.solver.mechanism_mut().hold(k, branch);
-        self.recorder.projector.hold(k, branch);
+        self.recorder.projector.mechanism.hold(k, branch);
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {
@@ -248,7 +242,7 @@ impl Problem for Run<'_> {
         if self.recorder.trajectory.ending == Ending::Event {
             return Ok((Next::Stop, error));
         }
-        if (go_on.is_break() || self.recorder.has_ended()) && end.t != self.t_end {
+        if (go_on.is_break() || self.recorder.handed.is_break()) && end.t != self.t_end {
             self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok((Next::Stop, error));
         }

@@ -3,8 +3,8 @@
 use super::agenda::Agenda;
 use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
-use super::{START_BOUND, Simulation, angles, obstacles};
-use crate::assemble::State;
+use super::{START_BOUND, Simulation, obstacles};
+use crate::assemble::{Residuals, State};
 use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
@@ -17,6 +17,9 @@ use crate::trajectory::{Trajectory, Work};
 /// States between the ends of steps are off by some ten tolerances; so many times that much is expected at most, of RATTLE's of this one.
 const INTERPOLATED: f64 = 100.0;
 const RATTLE: f64 = 1e-5;
+
+/// An angle whose rounding is above this, in rad, is no angle any more: sines and cosines of it have lost two thirds of their digits.
+const BLUR: f64 = 1e-5;
 
 impl Simulation {
     /// What takes the records of a run to `t_end`, the consistent start, and what a method is to be told.
@@ -89,7 +92,7 @@ impl Simulation {
         let mech = &self.mechanism;
         start.check(mech)?;
         let State { t, q, v } = start;
-        angles::check(spec, &q)?;
+        check_angles(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
         let measure = Measure::at(mech, t, [&new_q, &v]);
@@ -110,14 +113,12 @@ impl Simulation {
         let absolute: Vec<f64> = of_q.iter().map(|x| tolerance.relative * x).collect();
         let absolute = &absolute[..];
         if !near([&q, &new_q], absolute, &measure) {
-            let mut residual = vec![0.0; spec.holonomic];
-            mech.residual(t, &q, &mut residual);
+            let residual = Residuals::at(mech, t, &q, &v).position;
             return Err(off_constraint(spec, "position", &residual));
         }
         let velocity = projector.velocity(t, &new_q, &mut new_v)?;
         if !near([&v, &new_v], absolute, &measure) {
-            let mut residual = vec![0.0; spec.m()];
-            mech.residual_rate(t, &new_q, &v, &mut residual);
+            let residual = Residuals::at(mech, t, &new_q, &v).velocity;
             return Err(off_constraint(spec, "velocity", &residual));
         }
         work.projections += 1;
@@ -158,6 +159,23 @@ impl Simulation {
     }
 }
 
+/// An error where a coordinate in a sine, cosine or tangent of the equations is so large that it is rounded by more than [`BLUR`].
+/// An error control relative to the coordinate does not see it.
+fn check_angles(spec: &Spec, q: &[f64]) -> Result<(), Error> {
+    let rounding = |i: usize| q[i].abs() * f64::EPSILON;
+    let blurred = |i: &usize| rounding(*i) > BLUR;
+    let Some(i) = spec.structure.angles.iter().copied().find(blurred) else {
+        return Ok(());
+    };
+    let (name, x, rounding) = (spec.coords[i], q[i], rounding(i));
+    Err(Error::invalid(
+        "start",
+        format!(
+            "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
+        ),
+    ))
+}
+
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.
 fn near([before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
     let size = START_BOUND * measure.size(before);
@@ -170,9 +188,6 @@ fn near([before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bo
 }
 
 fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
-    let scale = vec![1.0; residual.len()];
-    Error::OffConstraint {
-        level,
-        constraints: diagnose::offending(spec, residual, &scale),
-    }
+    let constraints = diagnose::offending(spec, residual, |_| 1.0);
+    Error::OffConstraint { level, constraints }
 }

@@ -12,6 +12,7 @@
 use super::independence::Independence;
 use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
+use crate::dense::Rows;
 use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
@@ -71,6 +72,13 @@ pub(super) struct Vanishing {
     pub(super) rest: bool,
 }
 
+impl Vanishing {
+    /// How large the row is in `rows` of A, beside what it has been.
+    pub(super) fn size_in(&self, rows: Rows<'_>) -> f64 {
+        rows.largest(self.row, &self.scale) / self.size
+    }
+}
+
 /// The rows of A along a run.
 #[derive(Default)]
 pub(super) struct RowWatch {
@@ -104,7 +112,7 @@ pub(super) struct RowWatch {
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
     /// When to look again.
-    due: f64,
+    pub(super) due: f64,
 }
 
 /// A at a time; there is none at NaN.
@@ -264,7 +272,7 @@ impl RowWatch {
                 continue;
             }
             if to - from <= 0.5_f64.powi(HALVINGS) {
-                let (states, whole) = (Box::new([at(from), at(to)]), independence.is_whole());
+                let (states, whole) = (Box::new([at(from), at(to)]), independence.whole);
                 return Some(Loss::Rank { states, whole });
             }
             let middle = 0.5 * (from + to);
@@ -279,7 +287,7 @@ impl RowWatch {
         }
         (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
             states: Box::new(least.1.map(at)),
-            whole: independence.is_whole(),
+            whole: independence.whole,
         })
     }
 
@@ -350,12 +358,6 @@ impl RowWatch {
         })
     }
 
-    /// When rows are looked at next.
-    #[cfg(test)]
-    pub(super) fn due(&self) -> f64 {
-        self.due
-    }
-
     fn scale(&self) -> Vec<f64> {
         let measure = self.measure.as_ref();
         measure.map_or_else(Vec::new, |measure| measure.scale.clone())
@@ -366,16 +368,10 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let Compared {
-            rows,
-            own,
-            rows_gain,
-            own_gain,
-            kept,
-        } = self.compared;
+        let Compared { rows, own, kept } = self.compared;
         let [mut change, mut gain] = match self.together && kept && self.leaves.are_all() {
-            true => [own, own_gain],
-            false => [rows, rows_gain],
+            true => own,
+            false => rows,
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         if let Some(which) = self.asked
@@ -384,10 +380,10 @@ impl RowWatch {
             let here = &self.here.entries;
             let left = beside.left(here);
             let before = self.left[which];
-            change = STEEPER * (rows / left).max((before - left) / left);
-            gain = STEEPER * rows_gain / left;
+            change = STEEPER * (rows[0] / left).max((before - left) / left);
+            gain = STEEPER * rows[1] / left;
             if kept {
-                (change, gain) = (change.max(own), gain.max(own_gain));
+                (change, gain) = (change.max(own[0]), gain.max(own[1]));
             }
             self.left[which] = left;
         }

@@ -1,11 +1,11 @@
 //! Whether a solution stands: redundant constraints agree with the others as far as drift and rounding let them.
 
-use super::{DRIFT_FACTOR, RANK_CEILING, Solver};
+use super::{DRIFT_FACTOR, Given, RANK_CEILING, Solver};
 use crate::dense::Rows;
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Evaluated;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, or_one};
 
 /// The equations at the nearest state on the manifold.
 #[derive(Debug, Clone)]
@@ -45,9 +45,7 @@ impl Solver {
     /// Redundant rows must agree with the others, and q̈ must be finite.
     pub(super) fn check(
         &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        (t, q, v): Given<'_>,
         tolerance: f64,
         acceleration: &[f64],
     ) -> Result<(), Error> {
@@ -64,7 +62,7 @@ impl Solver {
             return Ok(());
         }
         if !self.drift.known {
-            self.measure_drift(t, q, v);
+            self.measure_drift((t, q, v));
             if self.agrees(acceleration, tolerance) {
                 return Ok(());
             }
@@ -78,7 +76,8 @@ impl Solver {
         let residual = (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]);
         let residual: Vec<f64> = residual.collect();
         Err(Error::Inconsistent {
-            constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
+            // A row of zeros has no scale: 0 = b.
+            constraints: diagnose::offending(spec, &residual, |c| or_one(self.dense.row_scale[c])),
         })
     }
 

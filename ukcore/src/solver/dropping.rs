@@ -39,7 +39,7 @@ impl Accepted {
 
 /// What is known of the rows that may be left out.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Dropping {
+pub(crate) struct Dropping {
     /// Whether states are projected onto the constraints after each step.
     projected: bool,
     /// Whether all rows are to count, whatever is known.
@@ -52,7 +52,7 @@ pub(super) struct Dropping {
     even: bool,
     /// The certificate of the elimination last tried.
     pub(super) certificate: f64,
-    pub(super) accepted: Accepted,
+    pub(crate) accepted: Accepted,
 }
 
 impl Dropping {
@@ -68,20 +68,20 @@ impl Dropping {
         }
     }
 
-    /// From here on states are projected after each step.
-    pub(super) fn project(&mut self) {
+    /// From here on each step of a run ends with a projection, which tells whether constraints are met that are left out within it.
+    pub(crate) fn project(&mut self) {
         self.projected = true;
     }
 
     /// From here on states drift off the constraints, and nothing shows whether those left out are met.
-    pub(super) fn keep(&mut self) {
+    pub(crate) fn keep(&mut self) {
         self.forget();
         self.whole = true;
     }
 
     /// A step was projected, or could not be: then constraints may have come to contradict each other, which solutions of all rows tell
     /// better for a while.
-    pub(super) fn judge(&mut self, met: bool) {
+    pub(crate) fn judge(&mut self, met: bool) {
         self.doubt = if met {
             self.doubt.saturating_sub(1)
         } else {

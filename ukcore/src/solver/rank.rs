@@ -1,18 +1,18 @@
 //! How many constraints count: the tolerance of the rank, as far as drift lends significance.
 
 use super::agreement::Drift;
-use super::{DRIFT_FACTOR, RANK_CEILING, Solver, mass_error};
+use super::{DRIFT_FACTOR, Given, RANK_CEILING, Solver, mass_error};
 use crate::error::Error;
 
 impl Solver {
     /// Decides the rank (see the [module](super)) and returns the tolerance that did.
-    pub(super) fn decide_rank(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<f64, Error> {
+    pub(super) fn decide_rank(&mut self, at: Given<'_>) -> Result<f64, Error> {
         let mut tolerance = self.options.rank_tolerance;
         let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
         let mut rank = self.dense.cod.pivots().len();
         if clear < rank {
             self.dense.cod.set_rank(clear);
-            self.measure_drift(t, q, v);
+            self.measure_drift(at);
             let there = self.drift.there.rows();
             let (here, measure) = (self.here.rows(), &self.dense.measure);
             let scale = &measure.scale;
@@ -48,7 +48,7 @@ impl Solver {
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
-    pub(super) fn measure_drift(&mut self, t: f64, q: &[f64], v: &[f64]) {
+    pub(super) fn measure_drift(&mut self, (t, q, v): Given<'_>) {
         let Drift {
             known,
             there,

@@ -11,7 +11,7 @@
 //! its own terms and f times those of row j; the latter are |a_ci λ_c|, as if a_ci were off by its rounding. So with two coordinates that
 //! are turned, with the component along n for row j and that along t for row i.
 
-use super::{Formula, RANK_CEILING, Solver};
+use super::{Formula, Given, RANK_CEILING, Solver};
 use crate::mechanism::Evaluated;
 use crate::scan::{all_finite, axpy};
 
@@ -61,7 +61,7 @@ impl Solver {
     }
 
     /// Refines q̈ of the straight line, in `out`; false where that does not lead to rounding.
-    pub(super) fn refined(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+    pub(super) fn refined(&mut self, (t, q, v): Given<'_>, out: &mut [f64]) -> bool {
         let known = &self.known;
         if !(known.valid && all_finite(out)) {
             return false;

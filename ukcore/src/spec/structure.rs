@@ -218,6 +218,11 @@ impl Costs {
 }
 
 impl Structure {
+    /// Whether M is regular at any state, as far as can be known.
+    pub(crate) fn is_regular(&self) -> bool {
+        self.massless.is_empty() && self.solve.regular.is_empty() && self.solve.met.is_empty()
+    }
+
     /// Of a mechanism about which nothing is known.
     pub const EMPTY: Structure = Structure {
         straight_line: false,

@@ -2,8 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::Sample;
-use super::drift::Gauge;
+use super::{Residual, Sample};
 use crate::mechanism::Prepared;
 
 /// Writes samples as comma-separated values: first a line of names, then a row for each sample.
@@ -36,7 +35,7 @@ use crate::mechanism::Prepared;
 /// ```
 #[derive(Debug)]
 pub struct CsvWriter<W> {
-    gauge: Gauge,
+    mechanism: Prepared,
     outputs: Vec<f64>,
     out: W,
 }
@@ -62,7 +61,7 @@ impl<W: Write> CsvWriter<W> {
         writeln!(out, ",energy,residual")?;
         Ok(CsvWriter {
             outputs: vec![0.0; spec.outputs.len()],
-            gauge: Gauge::new(mechanism),
+            mechanism,
             out,
         })
     }
@@ -76,12 +75,12 @@ impl<W: Write> CsvWriter<W> {
     /// If the sample has not as many coordinates as the mechanism.
     pub fn write(&mut self, sample: Sample<'_>) -> io::Result<()> {
         let Sample { t, q, v, integrals } = sample;
-        let mechanism = &self.gauge.mechanism;
+        let mechanism = &self.mechanism;
         // Of a state that belongs to no run.
         let missing = mechanism.integrals().len().saturating_sub(integrals.len());
         mechanism.outputs(t, q, v, &mut self.outputs);
         let energy = mechanism.energy(t, q, v).total();
-        let residual = self.gauge.residual(sample).largest();
+        let residual = Residual::of(mechanism, sample).largest();
         let out = &mut self.out;
         write!(out, "{t:?}")?;
         for value in q.iter().chain(v).chain(&self.outputs).chain(integrals) {

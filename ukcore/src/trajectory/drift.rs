@@ -1,6 +1,7 @@
 //! How far samples are off the constraints, and how far off the energy of the first one.
 
 use super::Sample;
+use crate::assemble::Residuals;
 use crate::mechanism::{Energy, Prepared};
 
 /// How far a sample is off the constraints.
@@ -13,6 +14,16 @@ pub struct Residual {
 }
 
 impl Residual {
+    /// That of a sample of `mechanism`.
+    pub(super) fn of(mechanism: &Prepared, sample: Sample<'_>) -> Self {
+        let all = Residuals::at(mechanism, sample.t, sample.q, sample.v);
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
+        Residual {
+            position: largest(&all.position),
+            velocity: largest(&all.velocity),
+        }
+    }
+
     /// The larger one of the two.
     #[must_use]
     pub fn largest(self) -> f64 {
@@ -23,7 +34,7 @@ impl Residual {
 /// The largest residuals and the energy drift of samples that come one by one, as those of a [streamed](crate::Simulation::stream) run do.
 #[derive(Debug, Clone)]
 pub struct Drift {
-    gauge: Gauge,
+    mechanism: Prepared,
     samples: usize,
     residual: Residual,
     energy: EnergyDrift,
@@ -34,7 +45,7 @@ impl Drift {
     #[must_use]
     pub fn new(mechanism: impl Into<Prepared>) -> Self {
         Drift {
-            gauge: Gauge::new(mechanism.into()),
+            mechanism: mechanism.into(),
             samples: 0,
             residual: Residual::default(),
             energy: EnergyDrift::default(),
@@ -47,11 +58,11 @@ impl Drift {
     /// If the sample has not as many coordinates as the mechanism.
     pub fn add(&mut self, sample: Sample<'_>) {
         self.samples += 1;
-        let Residual { position, velocity } = self.gauge.residual(sample);
+        let Residual { position, velocity } = Residual::of(&self.mechanism, sample);
         self.residual.position = nan_max(self.residual.position, position);
         self.residual.velocity = nan_max(self.residual.velocity, velocity);
         let Sample { t, q, v, .. } = sample;
-        self.energy.add(self.gauge.mechanism.energy(t, q, v));
+        self.energy.add(self.mechanism.energy(t, q, v));
     }
 
     /// Number of samples so far.
@@ -76,36 +87,6 @@ impl Drift {
     #[must_use]
     pub fn exchanged(&self) -> f64 {
         self.energy.exchanged
-    }
-}
-
-/// Measures [`Residual`]s.
-#[derive(Debug, Clone)]
-pub(super) struct Gauge {
-    pub(super) mechanism: Prepared,
-    position: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-impl Gauge {
-    pub(super) fn new(mechanism: Prepared) -> Self {
-        let spec = mechanism.spec();
-        Gauge {
-            position: vec![0.0; spec.holonomic],
-            velocity: vec![0.0; spec.m()],
-            mechanism,
-        }
-    }
-
-    pub(super) fn residual(&mut self, sample: Sample<'_>) -> Residual {
-        let Sample { t, q, v, .. } = sample;
-        self.mechanism.residual(t, q, &mut self.position);
-        self.mechanism.residual_rate(t, q, v, &mut self.velocity);
-        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
-        Residual {
-            position: largest(&self.position),
-            velocity: largest(&self.velocity),
-        }
     }
 }
 

@@ -29,7 +29,9 @@ const OFF: [f64; 2] = [1e-6, 1e-9];
 const LEFT: f64 = 1e-3;
 
 /// The equations at a state, coordinates measured by `units`, 1/√M_jj, and rows of A by their lengths.
-struct Equations {
+struct Equations<'a> {
+    mech: &'a Prepared,
+    state: &'a State,
     terms: Evaluated,
     units: DVector<f64>,
     /// ‖row of A‖, 1 for a row of zeros.
@@ -69,24 +71,20 @@ pub(super) fn check(
             return;
         }
     };
-    equations.met(mech, "q̈", &fast, found);
-    equations.met(
-        mech,
-        "q̈ of the rank-revealing solve",
-        &solution.acceleration,
-        found,
-    );
-    equations.reactions(mech, &solution, found);
-    power(mech, declared, state, &equations.terms, &solution, found);
-    equations.correction(mech, state, random, found);
+    equations.met("q̈", &fast, found);
+    let dense = "q̈ of the rank-revealing solve";
+    equations.met(dense, &solution.acceleration, found);
+    equations.reactions(&solution, found);
+    equations.power(declared, &solution, found);
+    equations.correction(random, found);
     if !equations.singular {
-        equations.printed(mech, &fast, found);
+        equations.printed(&fast, found);
         projection(mech, state, random, found);
     }
 }
 
-impl Equations {
-    fn at(mech: &Prepared, state: &State) -> Self {
+impl<'a> Equations<'a> {
+    fn at(mech: &'a Prepared, state: &'a State) -> Self {
         let (n, m) = (mech.spec().n(), mech.spec().m());
         let mut terms = Evaluated::new(n, m);
         terms.dynamics(mech, state.t, &state.q, &state.v);
@@ -109,6 +107,8 @@ impl Equations {
         }
         let rhs = DVector::from_column_slice(&terms.rhs).component_div(&lengths);
         Equations {
+            mech,
+            state,
             terms,
             units,
             lengths,
@@ -135,8 +135,8 @@ impl Equations {
     }
 
     /// A q̈ = b, and no work of M q̈ − Q − c in displacements that are free.
-    fn met(&self, mech: &Prepared, what: &str, acceleration: &[f64], found: &mut Findings) {
-        let spec = mech.spec();
+    fn met(&self, what: &str, acceleration: &[f64], found: &mut Findings) {
+        let spec = self.mech.spec();
         let a = self.measured(acceleration);
         let allowed = MET * self.size(&a);
         let rows = &self.jacobian * &a;
@@ -149,40 +149,23 @@ impl Equations {
         let reaction = &self.mass * &a - &self.force - &self.nonideal;
         let allowed = allowed.max(MET * largest(reaction.as_slice()));
         let what = format!("the work of M q̈ − Q − c by {what}");
-        self.no_share(mech, &what, &reaction, allowed, found);
+        self.no_share(&what, &reaction, allowed, found);
     }
 
     /// Whether `push` has no share in any displacement that is free; tells of the largest one.
-    fn no_share(
-        &self,
-        mech: &Prepared,
-        what: &str,
-        push: &DVector<f64>,
-        allowed: f64,
-        found: &mut Findings,
-    ) {
+    fn no_share(&self, what: &str, push: &DVector<f64>, allowed: f64, found: &mut Findings) {
         let shares = self.free.tr_mul(push);
         if shares.is_empty() {
             return;
         }
         let most = shares.icamax();
-        let leader = mech.spec().coords[self.free.column(most).icamax()];
+        let leader = self.mech.spec().coords[self.free.column(most).icamax()];
         let place = || format!("{what}, in a free displacement most of `{leader}`,");
         found.compare(place, shares[most], ("by the equations it", 0.0), allowed);
     }
 
-    /// Whether an acceleration, measured by units, is one that `met` would not complain about.
-    fn is_met_by(&self, a: &DVector<f64>) -> bool {
-        let off = &self.jacobian * a - &self.rhs;
-        let reaction = &self.mass * a - &self.force - &self.nonideal;
-        let work = self.free.tr_mul(&reaction);
-        let size = self.size(a);
-        largest(off.as_slice()) <= MET * size
-            && largest(work.as_slice()) <= MET * size.max(largest(reaction.as_slice()))
-    }
-
     /// M q̈ = Q + Qc_id + Qc_nid, and Qc_id = Aᵀλ.
-    fn reactions(&self, mech: &Prepared, solution: &Solution, found: &mut Findings) {
+    fn reactions(&self, solution: &Solution, found: &mut Findings) {
         let by_unit = |x: &[f64]| DVector::from_column_slice(x).component_mul(&self.units);
         let a = self.measured(&solution.acceleration);
         let inertial = &self.mass * &a;
@@ -195,7 +178,7 @@ impl Equations {
         let sizes = sizes.iter().map(|x| largest(x.as_slice()));
         let allowed = MET * sizes.fold(self.size(&a), f64::max);
         let total = &self.force + &ideal + &nonideal;
-        for (j, name) in mech.spec().coords.iter().enumerate() {
+        for (j, name) in self.mech.spec().coords.iter().enumerate() {
             let unit = self.units[j];
             let place = || format!("coordinate `{name}`: M q̈");
             let told = ("Q + Qc", total[j] / unit);
@@ -207,40 +190,37 @@ impl Equations {
     }
 
     /// Eqs. 13 and 19.
-    fn printed(&self, mech: &Prepared, acceleration: &[f64], found: &mut Findings) {
+    fn printed(&self, acceleration: &[f64], found: &mut Findings) {
         let (mass, jacobian, rhs) = (&self.mass, &self.jacobian, &self.rhs);
         let (force, nonideal) = (&self.force, &self.nonideal);
         let a = self.measured(acceleration);
         let allowed = PRINTED * self.size(&a);
-        let solve = &mech.spec().structure.solve;
-        let massless = mech.spec().structure.massless;
-        let regular = massless.is_empty() && solve.regular.is_empty() && solve.met.is_empty();
+        let regular = self.mech.spec().structure.is_regular();
         let by_13 =
             regular.then(|| uk::acceleration_nonideal(mass, force, nonideal, jacobian, rhs, RANK));
         let by_19 = up::acceleration(mass, &(force + nonideal), jacobian, rhs, RANK);
         for (equation, printed) in [("eq. 13", by_13.flatten()), ("eq. 19", by_19)] {
             // They square what is ill-conditioned; where they do not meet the equations themselves they tell nothing.
-            let Some(printed) = printed.filter(|a| self.is_met_by(a)) else {
+            let mut own = Findings::default();
+            let printed = printed.map(|a| a.component_mul(&self.units));
+            let Some(printed) = printed.filter(|a| {
+                self.met("", a.as_slice(), &mut own);
+                own.faults.is_empty()
+            }) else {
                 continue;
             };
-            for (j, name) in mech.spec().coords.iter().enumerate() {
+            for (j, name) in self.mech.spec().coords.iter().enumerate() {
                 let unit = self.units[j];
                 let place = || format!("coordinate `{name}`: q̈");
-                let told = (format!("by {equation} it"), printed[j] * unit);
+                let told = (format!("by {equation} it"), printed[j]);
                 found.compare(place, acceleration[j], (&told.0, told.1), allowed * unit);
             }
         }
     }
 
     /// The smallest change with A Δ = −r, as it is emitted: it is met, and at right angles to what is free.
-    fn correction(
-        &self,
-        mech: &Prepared,
-        state: &State,
-        random: &mut Random,
-        found: &mut Findings,
-    ) {
-        let spec = mech.spec();
+    fn correction(&self, random: &mut Random, found: &mut Findings) {
+        let (mech, spec) = (self.mech, self.mech.spec());
         let n = spec.n();
         if !spec.structure.straight_line || spec.m() == 0 {
             return;
@@ -248,7 +228,7 @@ impl Equations {
         let wanted = &self.jacobian * DVector::from_vec(random.vector(n));
         let residual: DVector<f64> = wanted.component_mul(&self.lengths);
         let mut change = vec![0.0; n];
-        let State { t, q, v } = state;
+        let State { t, q, v } = self.state;
         let certificate = mech.correction(*t, q, v, residual.as_slice(), &mut change);
         if certificate <= 0.5 {
             return;
@@ -261,57 +241,53 @@ impl Equations {
             found.compare(place, -met[i], ("the residual", wanted[i]), allowed);
         }
         let push = &self.mass * &change;
-        self.no_share(mech, "a correction", &push, allowed, found);
+        self.no_share("a correction", &push, allowed, found);
     }
-}
 
-/// d/dt of the energy h = ∂T/∂q̇ q̇ − T + V against the power of all forces that T and V do not account for.
-fn power(
-    mech: &Prepared,
-    declared: Declared,
-    state: &State,
-    terms: &Evaluated,
-    solution: &Solution,
-    found: &mut Findings,
-) {
-    let State { t, q, v } = state;
-    let n = q.len();
-    let now = Dual::new(*t, 1.0);
-    let backward: Vec<f64> = v.iter().map(|v| -v).collect();
-    let slowing: Vec<f64> = solution.acceleration.iter().map(|a| -a).collect();
-    let path = along(q, v);
-    let forth = (declared.energy)(mech, now, &path, &along(v, &solution.acceleration));
-    let back = (declared.energy)(mech, now, &path, &along(&backward, &slowing));
-    let rest = (declared.energy)(mech, now, &path, &constants(&vec![0.0; n]));
-    // T = T₂ + T₁ + T₀ by powers of q̇, and h = T₂ − T₀ + V.
-    let parts = [
-        0.5 * forth.kinetic.eps,
-        0.5 * back.kinetic.eps,
-        -2.0 * rest.kinetic.eps,
-    ];
-    let change = parts.iter().sum::<f64>() + forth.potential.eps;
-    let explicit = (declared.energy)(mech, now, &constants(q), &constants(v));
-    let mut power = explicit.potential.eps - explicit.kinetic.eps;
-    let mut size =
-        parts.iter().map(|x| x.abs()).sum::<f64>() + forth.potential.eps.abs() + power.abs();
-    for (i, rate) in v.iter().enumerate() {
-        let (of_energies, parts) = lagrangian(mech, declared, state, i);
-        let declared = match mech.spec().structure.forced.contains(&i) {
-            true => terms.force[i] - of_energies,
-            false => 0.0,
-        };
-        let reactions = [solution.ideal_force[i], solution.nonideal_force[i]];
-        power += rate * (declared + reactions[0] + reactions[1]);
-        size += rate.abs() * (parts + terms.force[i].abs());
-        size += rate.abs() * reactions.map(f64::abs).iter().sum::<f64>();
+    /// d/dt of the energy h = ∂T/∂q̇ q̇ − T + V against the power of all forces that T and V do not account for.
+    fn power(&self, declared: Declared, solution: &Solution, found: &mut Findings) {
+        let Equations {
+            mech, state, terms, ..
+        } = self;
+        let State { t, q, v } = state;
+        let n = q.len();
+        let now = Dual::new(*t, 1.0);
+        let backward: Vec<f64> = v.iter().map(|v| -v).collect();
+        let slowing: Vec<f64> = solution.acceleration.iter().map(|a| -a).collect();
+        let path = along(q, v);
+        let forth = (declared.energy)(mech, now, &path, &along(v, &solution.acceleration));
+        let back = (declared.energy)(mech, now, &path, &along(&backward, &slowing));
+        let rest = (declared.energy)(mech, now, &path, &constants(&vec![0.0; n]));
+        // T = T₂ + T₁ + T₀ by powers of q̇, and h = T₂ − T₀ + V.
+        let parts = [
+            0.5 * forth.kinetic.eps,
+            0.5 * back.kinetic.eps,
+            -2.0 * rest.kinetic.eps,
+        ];
+        let change = parts.iter().sum::<f64>() + forth.potential.eps;
+        let explicit = (declared.energy)(mech, now, &constants(q), &constants(v));
+        let mut power = explicit.potential.eps - explicit.kinetic.eps;
+        let mut size =
+            parts.iter().map(|x| x.abs()).sum::<f64>() + forth.potential.eps.abs() + power.abs();
+        for (i, rate) in v.iter().enumerate() {
+            let (of_energies, parts) = lagrangian(mech, declared, state, i);
+            let declared = match mech.spec().structure.forced.contains(&i) {
+                true => terms.force[i] - of_energies,
+                false => 0.0,
+            };
+            let reactions = [solution.ideal_force[i], solution.nonideal_force[i]];
+            power += rate * (declared + reactions[0] + reactions[1]);
+            size += rate.abs() * (parts + terms.force[i].abs());
+            size += rate.abs() * reactions.map(f64::abs).iter().sum::<f64>();
+        }
+        let place = || "the rate of the energy".to_owned();
+        found.compare(
+            place,
+            change,
+            ("the power of forces and constraints", power),
+            MET * size,
+        );
     }
-    let place = || "the rate of the energy".to_owned();
-    found.compare(
-        place,
-        change,
-        ("the power of forces and constraints", power),
-        MET * size,
-    );
 }
 
 /// From a little off the constraints back onto them.

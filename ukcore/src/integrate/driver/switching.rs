@@ -38,7 +38,8 @@ impl Driver<'_> {
             return Ok(false);
         }
         let end = Sample::of(trial.end.t, self.scheme.end());
-        if !equations.switches.suspect(equations.problem, end) {
+        equations.switches.look(equations.problem, end);
+        if !equations.switches.doubt {
             return Ok(false);
         }
         let stages = self.scheme.interpolate(equations, trial);

@@ -159,7 +159,7 @@ pub(super) struct Newton {
     jacobian: Vec<f64>,
     /// The Jacobian is that of the start of this step; it is to be computed anew.
     fresh: bool,
-    stale: bool,
+    pub(super) stale: bool,
     /// The matrices of both eigenvalues, times (h/λ)², and the step they belong to.
     real: Lu<f64>,
     pair: Lu<Complex<f64>>,
@@ -230,11 +230,6 @@ impl Newton {
     /// The step is tried again.
     pub(super) fn refused(&mut self) {
         self.stale = !self.fresh;
-    }
-
-    /// Whether the next step begins with the Jacobian in hand.
-    pub(super) fn keeps_jacobian(&self) -> bool {
-        !self.stale
     }
 
     /// Jacobian and factors for `step` from `y`, as far as those in hand will not do.

@@ -133,7 +133,7 @@ impl Equations<'_> {
             return Vec::new();
         }
         // Of all of them, be they located or not.
-        let mut values = vec![0.0; self.course.pace.switches().len()];
+        let mut values = vec![0.0; self.course.pace.switches.len()];
         let mut rates = values.clone();
         self.problem.switching(at, &mut values);
         self.problem.switching_rate(at, &acceleration, &mut rates);

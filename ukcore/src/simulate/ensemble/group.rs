@@ -159,7 +159,7 @@ impl<'a> Group<'a> {
         for (k, running) in members.running(&fresh) {
             running.course.h = first.lane(k);
             // Where f could not be evaluated for it, no step failed.
-            running.course.forgive();
+            running.course.trouble = None;
         }
         true
     }

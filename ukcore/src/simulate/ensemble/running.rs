@@ -80,7 +80,7 @@ impl Running {
     /// Whether the member is to go on alone: steps are short about what may be the zero of a length, or A loses a row on the step in hand,
     /// from and to the states that `states` gives.
     pub(super) fn leaves(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
-        if self.course.is_slow() {
+        if self.course.pace.is_slow() {
             return true;
         }
         let mechanism = self.recorder.trajectory.mechanism();
@@ -102,8 +102,7 @@ impl Running {
 
     /// Whether a sample lies within the step in hand.
     pub(super) fn wants_interpolant(&self) -> bool {
-        let next = self.recorder.next_sample();
-        self.settings.dense || self.course.covers(self.trial, next)
+        self.settings.dense || self.course.covers(self.trial, self.recorder.agenda.next)
     }
 
     /// Takes the samples of the step in hand, and what is integrated along it, from states at its ends, the coefficients of its
