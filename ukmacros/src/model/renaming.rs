@@ -2,29 +2,10 @@
 
 use super::LOADS;
 use super::types::Variable;
-use crate::parse::{Block, Expr, ExprKind, Function, Key, Let, Range, Section};
+use crate::parse::{Block, Entry, Expr, ExprKind, Function, Key, Let, Range};
 use proc_macro2::{Ident, Span};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
-
-/// Adds the entries of a part's section to the section of the whole.
-pub(super) fn section<T>(
-    to: &mut Option<Section<T>>,
-    from: Option<Section<T>>,
-    r: &mut Renaming,
-    each: &mut dyn FnMut(&mut Renaming, &mut T),
-) {
-    let Some(mut from) = from else {
-        return;
-    };
-    r.blocks(&mut from.blocks, each);
-    let keyword = Ident::new(&from.keyword.to_string(), r.span);
-    let section = to.get_or_insert(Section {
-        keyword,
-        blocks: Vec::new(),
-    });
-    section.blocks.extend(from.blocks);
-}
 
 /// `binding` where the loop variables have these values.
 pub(super) fn bound(binding: Let, variables: &[Variable], span: Span) -> Block<Let> {
@@ -119,6 +100,11 @@ impl Renaming {
             self.exprs(indices);
         }
         key.loc = self.span.into();
+    }
+
+    pub(super) fn entry(&mut self, entry: &mut Entry) {
+        self.key(&mut entry.key);
+        self.expr(&mut entry.value);
     }
 
     /// The name of a constraint or an output.

@@ -101,11 +101,11 @@ pub(crate) fn resolve(
     let mut model = constants(decl, functions, diag);
     parts(decl, &mut model, diag);
     members(&decl.params, Kind::Param, &mut model, diag, |param| Said {
-        default: Some(&param.default),
+        default: Some(&param.value),
         ..Said::new(&param.key, &param.docs)
     });
     members(&decl.coords, Kind::Coord, &mut model, diag, |coord| Said {
-        unit: coord.measure.as_ref().and_then(|m| coherent(m, diag)),
+        unit: coord.key.measure.as_ref().and_then(|m| coherent(m, diag)),
         ..Said::new(&coord.key, &coord.docs)
     });
     let before = diag.len();

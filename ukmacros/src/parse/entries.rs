@@ -3,8 +3,8 @@
 use super::expr::{Expr, location};
 use super::grammar::{blocks, coordinates, declared, docs, expression, key};
 use super::item::{
-    Applied, Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry,
-    Output, Param, PartUse, Shape, Start, StartOption,
+    Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
+    Shape, Start, StartOption,
 };
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Ident, TokenStream};
@@ -12,7 +12,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
+pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
     if !input.peek(Token![=]) {
@@ -22,14 +22,14 @@ pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Re
         ));
     }
     let _: Token![=] = input.parse()?;
-    let default = expression(input, diag)?;
-    Ok(Param { docs, key, default })
+    let value = expression(input, diag)?;
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
     let docs = docs(input, diag)?;
-    let (key, measure) = declared(input, diag)?;
-    Ok(Coord { docs, key, measure })
+    let key = declared(input, diag)?;
+    Ok(Coord { docs, key })
 }
 
 /// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
@@ -131,7 +131,7 @@ pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Pa
 }
 
 /// `elbow: hinge(p, q, u)`.
-pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
+pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
     if !input.peek(Token![:]) {
@@ -150,7 +150,7 @@ pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<J
         }
         e => Expr::convert(e, diag),
     };
-    Ok(Joint { docs, key, value })
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
@@ -238,8 +238,8 @@ pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<E
         return Err(syn::Error::new(key.name.span(), message));
     }
     let _: Token![:] = input.parse()?;
-    let value = expression(input, diag)?;
-    Ok(Entry { key, value })
+    let (docs, value) = (Vec::new(), expression(input, diag)?);
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation> {
@@ -276,17 +276,12 @@ pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
     })
 }
 
-pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
+pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
-    let (key, measure) = declared(input, diag)?;
+    let key = declared(input, diag)?;
     let _: Token![=] = input.parse()?;
     let value = expression(input, diag)?;
-    Ok(Output {
-        docs,
-        key,
-        measure,
-        value,
-    })
+    Ok(Entry { docs, key, value })
 }
 
 /// `start name(option = number, …) until number { guesses }`.

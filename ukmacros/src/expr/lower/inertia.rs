@@ -144,10 +144,10 @@ impl<'m> Lowering<'m> {
 
     /// The vector that `gravity` gives, with its place.
     fn gravity(&mut self, decl: &Declaration, top: &Scope<'m>) -> Option<(Value, Loc)> {
-        let section = decl.gravity.as_ref()?;
+        let keyword = decl.sections.get("gravity")?.span();
         let mut terms = Vec::new();
         let (mut loc, mut third): (Option<Loc>, Option<Loc>) = (None, None);
-        top.unroll(&section.blocks, self.diag, &mut |e: &Expr, scope| {
+        top.unroll(&decl.gravity, self.diag, &mut |e: &Expr, scope| {
             if let ExprKind::Vector(entries) = &e.kind
                 && let [_, _, z] = &entries[..]
             {
@@ -156,7 +156,7 @@ impl<'m> Lowering<'m> {
             loc = Some(loc.map_or(e.loc, |l| l.to(e.loc)));
             self.chain(e, 1.0, &Env::new(scope, Place::Gravity), &mut terms);
         });
-        let (value, keyword) = (self.total(&terms, false), section.keyword.span());
+        let value = self.total(&terms, false);
         let loc = loc.unwrap_or(keyword.into());
         if value.is_error() {
             return None;

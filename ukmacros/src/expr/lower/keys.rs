@@ -113,6 +113,7 @@ impl<'m> Lowering<'m> {
             name: found.name,
             indices: found.indices,
             fields: segments.split_off(found.used),
+            measure: None,
             loc: key.loc,
         };
         let whole = self.within(&key, scope)?.into_owned();

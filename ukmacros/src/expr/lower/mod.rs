@@ -197,6 +197,7 @@ impl<'m> Env<'m> {
 impl<'m> Lowering<'m> {
     fn run(&mut self, decl: &Declaration) -> System {
         let top = Scope::new(self.model);
+        let declared = |section: &str| decl.sections.contains_key(section);
         let constants = self.constants(&top);
         let defaults = self.defaults();
         self.defaults.clone_from(&defaults);
@@ -206,11 +207,11 @@ impl<'m> Lowering<'m> {
         let of_bodies = self.of_bodies(decl, &top, &defaults);
         let mut mass = self.mass(decl, &top);
         // Parts may have either.
-        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic)
+        if let (true, Some(kinetic)) = (declared("mass"), decl.sections.get("kinetic"))
             && self.model.part_families.is_empty()
         {
             self.diag.error(
-                kinetic.keyword.span(),
+                kinetic.span(),
                 "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
             );
         }
@@ -218,11 +219,9 @@ impl<'m> Lowering<'m> {
         let acting = self.acting(decl, &top);
         let mut terms = of_bodies.potential;
         terms.extend(&acting.potential);
-        if let Some(section) = &decl.potential {
-            terms.extend(self.terms_of(&section.blocks, &top, Place::Potential));
-        }
+        terms.extend(self.terms_of(&decl.potential, &top, Place::Potential));
         let potential =
-            (decl.potential.is_some() || !terms.is_empty()).then(|| self.graph.sum(&terms));
+            (declared("potential") || !terms.is_empty()).then(|| self.graph.sum(&terms));
         let mut force = BTreeMap::new();
         top.unroll(&decl.force, self.diag, &mut |entry, scope| {
             self.entry(entry, &Env::new(scope, Place::Force), &mut force);
@@ -234,8 +233,7 @@ impl<'m> Lowering<'m> {
         // Behind the constraints if it may use their reactions.
         let late = LOADS.iter().any(|name| uses(decl, name));
         let forces = |lowering: &mut Self| {
-            let section = decl.nonideal.as_ref();
-            section.map(|s| lowering.applied(&s.blocks, &top))
+            declared("nonideal").then(|| lowering.applied(&decl.nonideal, &top))
         };
         let early = (!late).then(|| forces(self));
         self.constraints = of_bodies.units;
@@ -330,8 +328,8 @@ impl<'m> Lowering<'m> {
             let total = self.total_of(&values);
             mass.entry((*i, *i)).or_insert((total, *loc)).0 = total;
         }
-        let section = decl.kinetic.as_ref();
-        let loc = section.map(|s| s.keyword.span().into());
+        let keyword = decl.sections.get("kinetic");
+        let loc = keyword.map(|keyword| keyword.span().into());
         let loc = loc.or(of_bodies.changing)?;
         let mut terms = of_bodies.turning.clone();
         for ((i, j), (m, declared)) in std::mem::take(mass) {
@@ -344,9 +342,7 @@ impl<'m> Lowering<'m> {
             let term = self.graph.product(&[(m, 1), (v[0], 1), (v[1], 1)]);
             terms.push((if i == j { 0.5 } else { 1.0 }, term));
         }
-        if let Some(section) = section {
-            terms.extend(self.terms_of(&section.blocks, top, Place::Kinetic));
-        }
+        terms.extend(self.terms_of(&decl.kinetic, top, Place::Kinetic));
         Some((self.graph.sum(&terms), loc))
     }
 
@@ -356,11 +352,9 @@ impl<'m> Lowering<'m> {
         top.unroll(&decl.forces, self.diag, &mut |e, scope| {
             self.acts(e, &Env::new(scope, Place::Force), &mut out);
         });
-        if let Some(section) = &decl.dissipation {
-            for (_, id) in self.terms_of(&section.blocks, top, Place::Force) {
-                let minus = self.graph.constant(-1.0);
-                self.push(id, minus, &mut out);
-            }
+        for (_, id) in self.terms_of(&decl.dissipation, top, Place::Force) {
+            let minus = self.graph.constant(-1.0);
+            self.push(id, minus, &mut out);
         }
         out
     }
@@ -368,14 +362,12 @@ impl<'m> Lowering<'m> {
     /// The lower triangle of M.
     fn mass(&mut self, decl: &Declaration, top: &Scope<'m>) -> BTreeMap<(usize, usize), (Id, Loc)> {
         let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
-        if let Some(section) = &decl.mass {
-            top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
-                for (place, value) in self.mass_entry(entry, scope) {
-                    let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
-                    entries.0.push(value);
-                }
-            });
-        }
+        top.unroll(&decl.mass, self.diag, &mut |entry, scope| {
+            for (place, value) in self.mass_entry(entry, scope) {
+                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
+                entries.0.push(value);
+            }
+        });
         let mass = mass.into_iter();
         mass.map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
             .collect()

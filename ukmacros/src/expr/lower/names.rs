@@ -263,6 +263,7 @@ impl<'m> Lowering<'m> {
             name,
             indices,
             fields: vec![(field.clone(), Vec::new())],
+            measure: None,
             loc: base.loc.to(field.span().into()),
         };
         let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
