@@ -148,23 +148,8 @@ impl Renaming {
     pub(super) fn expr(&mut self, e: &mut Expr) {
         e.loc = self.span.into();
         match &mut e.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
             ExprKind::Name(name) => self.name(name),
-            ExprKind::Index(base, indices) => {
-                self.expr(base);
-                self.exprs(indices);
-            }
-            ExprKind::Field(base, name) => {
-                self.expr(base);
-                name.set_span(self.span);
-            }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) | ExprKind::Quantity(inner, _) => {
-                self.expr(inner);
-            }
-            ExprKind::Chain(first, rest) => {
-                self.expr(first);
-                rest.iter_mut().for_each(|(_, operand)| self.expr(operand));
-            }
+            ExprKind::Field(_, name) => name.set_span(self.span),
             ExprKind::Call(name, args) => {
                 if self.of_part(args) {
                     name.set_span(self.span);
@@ -177,17 +162,18 @@ impl Renaming {
                 if LOADS.iter().any(|load| name == load) {
                     args.iter_mut().for_each(|arg| self.constraint(arg));
                 }
-                self.exprs(args);
             }
-            ExprKind::Vector(components) => self.exprs(components),
             ExprKind::Sum { var, range, body } => {
                 self.range(range);
                 var.set_span(self.span);
                 self.hidden.push(var.to_string());
                 self.expr(body);
                 self.hidden.pop();
+                return;
             }
+            _ => {}
         }
+        e.parts_mut().into_iter().for_each(|part| self.expr(part));
     }
 
     pub(super) fn function(&mut self, function: &mut Function) {

@@ -174,37 +174,23 @@ impl Names {
 
     fn expr(&mut self, e: &Expr) {
         match &e.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
             ExprKind::Name(name) => {
                 let text = name.to_string();
                 if !self.hidden.contains(&text) {
                     self.used.insert(text);
                 }
             }
-            ExprKind::Index(base, indices) => {
-                self.expr(base);
-                indices.iter().for_each(|i| self.expr(i));
-            }
-            ExprKind::Neg(inner)
-            | ExprKind::Group(inner)
-            | ExprKind::Field(inner, _)
-            | ExprKind::Quantity(inner, _) => self.expr(inner),
-            ExprKind::Chain(first, rest) => {
-                self.expr(first);
-                rest.iter().for_each(|(_, operand)| self.expr(operand));
-            }
-            ExprKind::Call(name, args) => {
-                self.used.insert(name.to_string());
-                args.iter().for_each(|a| self.expr(a));
-            }
-            ExprKind::Vector(components) => components.iter().for_each(|c| self.expr(c)),
+            ExprKind::Call(name, _) => drop(self.used.insert(name.to_string())),
             ExprKind::Sum { var, range, body } => {
                 self.expr(&range.from);
                 self.expr(&range.to);
                 self.hidden.push(var.to_string());
                 self.expr(body);
                 self.hidden.pop();
+                return;
             }
+            _ => {}
         }
+        e.parts().into_iter().for_each(|part| self.expr(part));
     }
 }

@@ -110,12 +110,10 @@ fn written(e: &Expr, dimension: Dimension) -> Option<String> {
         ExprKind::Quantity(_, unit) => {
             (unit.dimension().without_angle() == dimension).then(|| unit.si())
         }
-        ExprKind::Neg(inner) | ExprKind::Group(inner) => written(inner, dimension),
-        ExprKind::Chain(first, rest) => {
-            let mut operands = std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e));
-            operands.find_map(|e| written(e, dimension))
+        ExprKind::Neg(_) | ExprKind::Group(_) | ExprKind::Chain(..) | ExprKind::Vector(_) => {
+            let mut parts = e.parts().into_iter();
+            parts.find_map(|part| written(part, dimension))
         }
-        ExprKind::Vector(components) => components.iter().find_map(|e| written(e, dimension)),
         _ => None,
     }
 }
