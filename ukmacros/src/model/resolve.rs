@@ -8,8 +8,7 @@ use super::types::{
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key, Measure};
 use proc_macro2::Ident;
-use std::cell::Cell;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use ukunits::Unit;
 
@@ -29,29 +28,10 @@ fn constants(
     diag: &Diagnostics,
 ) -> Model {
     let mut model = Model {
-        integers: BTreeMap::new(),
-        floats: Vec::new(),
-        params: Vec::new(),
-        coords: Vec::new(),
-        bodies: Vec::new(),
-        body_kinds: Vec::new(),
-        body_elements: Vec::new(),
-        joints: Vec::new(),
-        hung: Vec::new(),
-        own: Vec::new(),
-        fields: HashMap::new(),
-        plain: 0,
-        param_elements: Vec::new(),
-        coord_elements: Vec::new(),
-        names: HashMap::new(),
         index_functions: index_functions(decl),
-        repetitions: Cell::new(0),
-        applications: Cell::new(0),
-        too_many: Cell::new(None),
         units: decl.units,
         reserved: functions.chain(RESERVED).collect(),
-        part_families: BTreeMap::new(),
-        shown: BTreeMap::new(),
+        ..Model::default()
     };
     for constant in &decl.consts {
         let name = constant.name.to_string();

@@ -192,6 +192,7 @@ fn sections() -> String {
 }
 
 /// What stands before a declaration, a section or an entry.
+#[derive(Default)]
 struct Attributes {
     /// The text of doc comments.
     docs: Vec<String>,
@@ -205,8 +206,7 @@ struct Attributes {
 
 /// Doc comments, and before a declaration the path of the crate `ukcore` and the lints allowed.
 fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attributes> {
-    let (mut docs, mut runtime, mut lints) = (Vec::new(), None, TokenStream::new());
-    let mut part = false;
+    let mut found = Attributes::default();
     for attribute in input.call(syn::Attribute::parse_outer)? {
         match &attribute.meta {
             syn::Meta::NameValue(syn::MetaNameValue {
@@ -218,11 +218,13 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     }),
                 ..
             }) if path.is_ident("doc") => {
-                docs.extend(text.value().lines().map(|l| l.trim().to_owned()));
+                found
+                    .docs
+                    .extend(text.value().lines().map(|l| l.trim().to_owned()));
             }
             syn::Meta::List(list) if list.path.is_ident("ukcore") => {
                 if list.parse_args::<Ident>().is_ok_and(|word| word == "part") {
-                    part = true;
+                    found.part = true;
                     continue;
                 }
                 let named = |input: ParseStream<'_>| {
@@ -231,7 +233,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     input.call(syn::Path::parse_mod_style)
                 };
                 match list.parse_args_with(named) {
-                    Ok(path) => runtime = Some(path.to_token_stream()),
+                    Ok(path) => found.runtime = Some(path.to_token_stream()),
                     Err(_) => diag.error(
                         Loc::of(&attribute.meta),
                         "this attribute is written `#[ukcore(part)]` or `#[ukcore(crate = my::path::to::ukcore)]`",
@@ -239,48 +241,36 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                 }
             }
             syn::Meta::List(list) if list.path.is_ident("allow") => {
-                attribute.to_tokens(&mut lints);
+                attribute.to_tokens(&mut found.lints);
             }
             other => diag.error(Loc::of(other), "only doc comments are allowed here"),
         }
     }
-    Ok(Attributes {
-        docs,
-        runtime,
-        lints,
-        part,
-    })
+    Ok(found)
 }
 
 /// The text of doc comments; other attributes are refused.
 pub(super) fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
     let place = input.span();
-    let Attributes {
-        docs,
-        runtime,
-        lints,
-        part,
-    } = attributes(input, diag)?;
+    let found = attributes(input, diag)?;
     let misplaced = [
-        (part, "#[ukcore(part)]"),
-        (runtime.is_some(), "#[ukcore(crate = …)]"),
-        (!lints.is_empty(), "#[allow(…)]"),
+        (found.part, "#[ukcore(part)]"),
+        (found.runtime.is_some(), "#[ukcore(crate = …)]"),
+        (!found.lints.is_empty(), "#[allow(…)]"),
     ];
     for (_, attribute) in misplaced.into_iter().filter(|(found, _)| *found) {
         let message = format!("`{attribute}` stands before the whole declaration");
         diag.error(place, message);
     }
-    Ok(docs)
+    Ok(found.docs)
 }
 
 fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Const> {
     let _: Token![const] = input.parse()?;
     let name: Ident = input.parse()?;
-    if !input.peek(Token![:]) {
-        let message = format!("a constant needs its type: `const {name}: usize = 3;`");
-        return Err(syn::Error::new(name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
+    let _: Token![:] = needed(input, &name, || {
+        format!("a constant needs its type: `const {name}: usize = 3;`")
+    })?;
     let ty: Ident = input.parse()?;
     if ty != "usize" && ty != "f64" {
         diag.error(
@@ -297,6 +287,16 @@ fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> sy
         integer: ty != "f64",
         value,
     })
+}
+
+/// What has to stand next; where it does not, `message` is told of `name`.
+pub(super) fn needed<T: syn::parse::Parse>(
+    input: ParseStream<'_>,
+    name: &Ident,
+    message: impl FnOnce() -> String,
+) -> syn::Result<T> {
+    let found = input.parse();
+    found.map_err(|_| syn::Error::new(name.span(), message()))
 }
 
 pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
