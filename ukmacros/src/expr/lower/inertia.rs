@@ -27,22 +27,9 @@ pub(super) struct OfBodies {
     pub(super) inertias: Vec<(String, Vec<Id>)>,
 }
 
-/// How a spatial body turns.
-struct Turns {
-    /// Its angular velocity in axes of its own.
-    spin: Value,
-    /// In any way: its coordinates are a quaternion.
-    freely: bool,
-}
-
 impl<'m> Lowering<'m> {
-    /// What the bodies of the declaration have by themselves; `defaults` are those of the parameters.
-    pub(super) fn of_bodies(
-        &mut self,
-        decl: &Declaration,
-        top: &Scope<'m>,
-        defaults: &[f64],
-    ) -> OfBodies {
+    /// What the bodies of the declaration have by themselves.
+    pub(super) fn of_bodies(&mut self, decl: &Declaration, top: &Scope<'m>) -> OfBodies {
         let mut out = OfBodies::default();
         let gravity = self.gravity(decl, top);
         for position in 0..self.bodies.len() {
@@ -55,8 +42,8 @@ impl<'m> Lowering<'m> {
                 continue;
             };
             let loc = body.key.loc;
-            let mass = self.mass_of(&body, &variables, defaults);
             let spatial = frame.dimension() == Some(3);
+            let mass = self.not_negative(body.mass.as_ref(), "mass", spatial, &variables);
             if let Some(energy) = self.hung_energy(&frame, mass) {
                 out.changing = out.changing.or(Some(loc));
                 out.turning.extend(energy);
@@ -67,8 +54,8 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let turns = self.turns(position, &frame);
-                let inertia = self.turning(&body, &variables, &turns, defaults, &mut out.turning);
+                let freely = self.turns_freely(position);
+                let inertia = self.turning(&body, &variables, &frame, freely, &mut out.turning);
                 let given = inertia.map(|rows| [vec![mass], rows].concat());
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
@@ -79,7 +66,8 @@ impl<'m> Lowering<'m> {
                     out.units.push(unit);
                 }
             } else {
-                let inertia = self.inertia_of(&body, &variables, defaults);
+                let inertia =
+                    self.not_negative(body.inertia.as_ref(), "inertia", false, &variables);
                 match own {
                     Some(first) => out.diagonal.extend(
                         (first..)
@@ -199,33 +187,18 @@ impl<'m> Lowering<'m> {
     }
 
     /// Values of `ids` by the defaults of the parameters, if all are known.
-    fn by_default(&self, ids: &[Id], defaults: &[f64]) -> Option<Vec<f64>> {
-        let values = eval(&self.graph, ids, &Point::of_parameters(defaults));
+    fn by_default(&self, ids: &[Id]) -> Option<Vec<f64>> {
+        let values = eval(&self.graph, ids, &Point::of_parameters(&self.defaults));
         values.iter().all(|x| x.is_finite()).then_some(values)
     }
 
-    fn mass_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
-        self.not_negative(
-            body.mass.as_ref(),
-            "mass",
-            body.spatial,
-            variables,
-            defaults,
-        )
-    }
-
-    fn inertia_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
-        self.not_negative(body.inertia.as_ref(), "inertia", false, variables, defaults)
-    }
-
-    /// A number that is not negative, nor zero where the body is `spatial`; 0 where none is given.
+    /// The mass or the inertia of a body: a number that is not negative, nor zero where the body is `spatial`; 0 where none is given.
     fn not_negative(
         &mut self,
         e: Option<&Expr>,
         what: &str,
         spatial: bool,
         variables: &[Variable],
-        defaults: &[f64],
     ) -> Id {
         let zero = self.graph.zero();
         let Some(e) = e else {
@@ -240,7 +213,7 @@ impl<'m> Lowering<'m> {
         let Some(numbers) = self.of_shape(&value, &[], e.loc) else {
             return zero;
         };
-        let number = self.by_default(&numbers, defaults).map_or(1.0, |x| x[0]);
+        let number = self.by_default(&numbers).map_or(1.0, |x| x[0]);
         if number < 0.0 {
             self.error(e.loc, format!("the {what} of a body must not be negative"));
         } else if spatial && number == 0.0 {
@@ -252,20 +225,17 @@ impl<'m> Lowering<'m> {
         numbers[0]
     }
 
-    /// How the body at `position` turns.
-    fn turns(&mut self, position: usize, frame: &Frame) -> Turns {
+    /// Whether the body at `position` turns in any way: by a quaternion.
+    fn turns_freely(&self, position: usize) -> bool {
         let model = self.model;
         let freely = |joint: usize| model.joints[joint].kind.coordinates.len() == 4;
-        Turns {
-            spin: self.spin(frame),
-            freely: model.own[position].is_some() || model.hung[position].is_some_and(freely),
-        }
+        model.own[position].is_some() || model.hung[position].is_some_and(freely)
     }
 
-    /// Whether these are the moments of a thin rod, which has none about one of its axes, hung where it cannot turn about that alone.
-    fn thin(&self, moments: &Value, turns: &Turns) -> bool {
+    /// Whether these are the moments of a thin rod, which has none about one of its axes: hung where it cannot turn about that alone.
+    fn thin(&self, moments: &Value) -> bool {
         let zeros = moments.entries().iter().filter(|j| self.graph.is_zero(**j));
-        !turns.freely && moments.shape() == [3] && zeros.count() == 1
+        moments.shape() == [3] && zeros.count() == 1
     }
 
     /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
@@ -273,11 +243,12 @@ impl<'m> Lowering<'m> {
         &mut self,
         body: &Body,
         variables: &[Variable],
-        turns: &Turns,
-        defaults: &[f64],
+        frame: &Frame,
+        freely: bool,
         out: &mut Vec<(f64, Id)>,
     ) -> Option<Vec<Id>> {
         let e = body.inertia.as_ref()?;
+        let spin = self.spin(frame);
         let value = self.part_of_body(e, variables);
         self.expect_all(&value, Dimension::INERTIA, "the inertia of a body", e.loc);
         let j = value.entries();
@@ -300,13 +271,13 @@ impl<'m> Lowering<'m> {
         };
         let mut all = lower.concat();
         all.extend(upper);
-        if let Some(numbers) = self.by_default(&all, defaults)
-            && let Err(reason) = possible(&numbers, self.thin(&value, turns))
+        if let Some(numbers) = self.by_default(&all)
+            && let Err(reason) = possible(&numbers, !freely && self.thin(&value))
         {
             self.error(e.loc, reason);
             return None;
         }
-        let spin = turns.spin.entries();
+        let spin = spin.entries();
         let mut l = lower;
         let mut d = [zero; 3];
         for k in 0..3 {

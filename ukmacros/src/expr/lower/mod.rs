@@ -31,7 +31,7 @@ use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{LOADS, Model, Scope, uses};
 use crate::parse::{Applied, Block, Declaration, Entry, Expr, Function, MassEntry};
-use array::{Value, describe};
+use array::Value;
 use bodies::Declared;
 use constraints::Names;
 use drawing::Between;
@@ -199,12 +199,11 @@ impl<'m> Lowering<'m> {
         let top = Scope::new(self.model);
         let declared = |section: &str| decl.sections.contains_key(section);
         let constants = self.constants(&top);
-        let defaults = self.defaults();
-        self.defaults.clone_from(&defaults);
+        self.defaults = self.defaults();
         self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 
-        let of_bodies = self.of_bodies(decl, &top, &defaults);
+        let of_bodies = self.of_bodies(decl, &top);
         let mut mass = self.mass(decl, &top);
         // Parts may have either.
         if let (true, Some(kinetic)) = (declared("mass"), decl.sections.get("kinetic"))
@@ -260,7 +259,7 @@ impl<'m> Lowering<'m> {
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
-            defaults,
+            defaults: std::mem::take(&mut self.defaults),
             units: Vec::new(),
             efforts: Vec::new(),
             mass,
@@ -418,13 +417,7 @@ impl<'m> Lowering<'m> {
         {
             return vec![*id; shape.iter().product()];
         }
-        if !value.is_error() && value.shape() != shape {
-            let (expected, found) = (describe(shape), describe(value.shape()));
-            self.diag
-                .error(e.loc, format!("expected {expected}, found {found}"));
-            return Vec::new();
-        }
-        value.entries().to_vec()
+        self.of_shape(value, shape, e.loc).unwrap_or_default()
     }
 
     /// c, by coordinate.

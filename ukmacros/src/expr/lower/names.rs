@@ -177,26 +177,19 @@ impl<'m> Lowering<'m> {
         if !self.unknown.insert(text.clone()) {
             return Value::Error;
         }
-        match self.results.get(&text) {
-            Some(NoValue::Constraint) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"),
-                );
-            }
-            Some(NoValue::Output) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is an output, which no expression can use; declare its value by `let`"),
-                );
-            }
-            Some(NoValue::Integral) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"),
-                );
-            }
-            None => {}
+        if let Some(result) = self.results.get(&text) {
+            let message = match result {
+                NoValue::Constraint => format!(
+                    "`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"
+                ),
+                NoValue::Output => format!(
+                    "`{text}` is an output, which no expression can use; declare its value by `let`"
+                ),
+                NoValue::Integral => format!(
+                    "`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"
+                ),
+            };
+            return self.error(name.span(), message);
         }
         let names = self.model.names.keys().chain(self.lets.keys());
         let names = names.map(String::as_str);
