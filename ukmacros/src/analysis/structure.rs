@@ -193,6 +193,10 @@ fn smooth(id: Id, g: &Graph) -> bool {
 
 /// Whether `id` is identically zero at q̇ = 0.
 fn vanishes_at_rest(id: Id, g: &mut Graph) -> bool {
-    let rest = g.at_rest(id);
-    g.is_zero(rest)
+    let rest = g.rewritten(&[id], |g, id, known| match *g.node(id) {
+        Node::Symbol(Symbol::Velocity(_)) => Some(g.zero()),
+        Node::Held(inner) if g.uses(inner).velocity => Some(known[&inner]),
+        _ => None,
+    });
+    g.is_zero(rest[&id])
 }

@@ -65,16 +65,12 @@ pub(crate) fn hold(
     let mut pass = Pass {
         numbers,
         branches: Map::default(),
-        known: Map::default(),
     };
-    for id in g.reachable(&roots) {
-        let new = pass.rewrite(id, g);
-        pass.known.insert(id, new);
-    }
+    let known = g.rewritten(&roots, |g, id, known| pass.rewrite(id, known, g));
     for id in held.equations_mut() {
-        *id = pass.known[id];
+        *id = known[id];
     }
-    system.carry_names(&pass.known);
+    system.carry_names(&known);
     let switches = list.into_iter().chain(lengths.list).collect();
     (held, switches)
 }
@@ -196,60 +192,53 @@ struct Pass {
     numbers: Map<Id, usize>,
     /// What stands for g in decisions: the branch where one is held.
     branches: Map<Id, Id>,
-    /// New node of each old one.
-    known: Map<Id, Id>,
 }
 
 impl Pass {
-    fn rewrite(&mut self, id: Id, g: &mut Graph) -> Id {
+    /// What becomes of a node with branches, where its operands are `known`; nothing of others.
+    fn rewrite(&mut self, id: Id, known: &Map<Id, Id>, g: &mut Graph) -> Option<Id> {
         let decision = decision(id, g).filter(|d| self.numbers.contains_key(&d.function));
-        let Some(Decision { function, sign }) = decision else {
-            let kept = |operand: &Id| self.known[operand] == *operand;
-            return match g.operands(id).iter().all(kept) {
-                true => id,
-                false => g.with_operands(id, |_, operand| self.known[&operand]),
-            };
-        };
-        let branch = self.branch(function, g);
+        let Decision { function, sign } = decision?;
+        let branch = self.branch(function, known, g);
         let zero = g.zero();
         // u ≤ 0 where low ≤ high, for u = sign · g.
         let (low, high) = match sign > 0.0 {
             true => (branch, zero),
             false => (zero, branch),
         };
-        match g.node(id).clone() {
+        Some(match g.node(id).clone() {
             Node::Call(Func::Sign, _) => {
                 let value = g.call1(Func::Sign, branch);
                 g.scale(sign, value)
             }
             Node::Call(Func::Abs, args) => {
-                let u = self.known[&args[0]];
+                let u = known[&args[0]];
                 let negative = g.neg(u);
                 g.select(high, low, u, negative)
             }
             Node::Call(func, args) => {
-                let (a, b) = (self.known[&args[0]], self.known[&args[1]]);
+                let (a, b) = (known[&args[0]], known[&args[1]]);
                 match func {
                     Func::Min => g.select(low, high, a, b),
                     _ => g.select(low, high, b, a),
                 }
             }
             Node::Select([.., then, otherwise]) => {
-                let (then, otherwise) = (self.known[&then], self.known[&otherwise]);
+                let (then, otherwise) = (known[&then], known[&otherwise]);
                 g.select(low, high, then, otherwise)
             }
             _ => id,
-        }
+        })
     }
 
-    fn branch(&mut self, function: Id, g: &mut Graph) -> Id {
+    fn branch(&mut self, function: Id, known: &Map<Id, Id>, g: &mut Graph) -> Id {
         if let Some(branch) = self.branches.get(&function) {
             return *branch;
         }
         // A difference a − b may be no part of the equations, but what it consists of is.
-        let value = match self.known.get(&function) {
+        let value = match known.get(&function) {
             Some(value) => *value,
-            None => g.with_operands(function, |_, operand| self.known[&operand]),
+            None => g.with_operands(function, |_, operand| known[&operand]),
         };
         let held = g.symbol(Symbol::Branch(self.numbers[&function]));
         let branch = g.call2(Func::Branch, value, held);

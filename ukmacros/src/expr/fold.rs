@@ -456,6 +456,26 @@ impl Graph {
         }
     }
 
+    /// The new nodes of all that `roots` are made of: what `changed` gives for a node, from those of its operands, or else the node with
+    /// these in their places.
+    pub(crate) fn rewritten(
+        &mut self,
+        roots: &[Id],
+        mut changed: impl FnMut(&mut Self, Id, &Map<Id, Id>) -> Option<Id>,
+    ) -> Map<Id, Id> {
+        let mut known: Map<Id, Id> = Map::default();
+        for id in self.reachable(roots) {
+            let kept = |operand: &Id| known[operand] == *operand;
+            let new = match changed(self, id, &known) {
+                Some(new) => new,
+                None if self.operands(id).iter().all(kept) => id,
+                None => self.with_operands(id, |_, operand| known[&operand]),
+            };
+            known.insert(id, new);
+        }
+        known
+    }
+
     /// `id`, which was held, in another form: held as it is, with its coefficient.
     pub(crate) fn hold_again(&mut self, id: Id) -> Id {
         match self.node(id) {

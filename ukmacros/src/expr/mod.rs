@@ -9,7 +9,6 @@ mod functions;
 mod graph;
 mod jet;
 mod lower;
-mod rest;
 
 pub(crate) use diff::{Adjoint, Derivative, Gradient};
 pub(crate) use display::Printer;
