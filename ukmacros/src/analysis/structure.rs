@@ -177,18 +177,9 @@ fn slopes(id: Id, g: &mut Graph) -> Vec<Id> {
 
 /// Whether velocities enter `id` by arithmetic alone: no function of them, which may have kinks that derivatives do not show.
 fn smooth(id: Id, g: &Graph) -> bool {
-    let mut stack = vec![id];
-    let mut seen = HashSet::new();
-    while let Some(id) = stack.pop() {
-        if !g.uses(id).velocity || !seen.insert(id) {
-            continue;
-        }
-        if matches!(g.node(id), Node::Call(..) | Node::Select(_)) {
-            return false;
-        }
-        stack.extend(g.operands(id));
-    }
-    true
+    let bends = |id: &Id| matches!(g.node(*id), Node::Call(..) | Node::Select(_));
+    let below = g.reachable(&[id]);
+    !below.iter().any(|id| bends(id) && g.uses(*id).velocity)
 }
 
 /// Whether `id` is identically zero at q̇ = 0.
