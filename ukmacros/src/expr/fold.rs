@@ -27,6 +27,15 @@ pub(crate) fn is_power_of_two(x: f64) -> bool {
     x.is_normal() && x.to_bits().trailing_zeros() >= 52 && x > 0.0
 }
 
+/// The power of a base that is in both of these powers of it, which are of one sign then.
+pub(crate) fn common_power(a: i32, b: i32) -> Option<i32> {
+    match (a > 0, b > 0) {
+        (true, true) => Some(a.min(b)),
+        (false, false) => Some(a.max(b)),
+        _ => None,
+    }
+}
+
 impl Graph {
     pub(crate) fn constant(&mut self, x: f64) -> Id {
         self.intern(Node::Const(Num::new(x)))
@@ -170,17 +179,10 @@ impl Graph {
         for (_, part) in &parts[1..] {
             let factors = factors_of(self, *part);
             common.retain_mut(|(base, e)| {
-                let Some((_, other)) = factors.iter().find(|(b, _)| b == base) else {
-                    return false;
-                };
-                // The power that both have: only of one sign.
-                let alike = (*e > 0) == (*other > 0);
-                *e = if *e > 0 {
-                    (*e).min(*other)
-                } else {
-                    (*e).max(*other)
-                };
-                alike
+                let other = factors.iter().find(|(b, _)| b == base);
+                let both = other.and_then(|(_, other)| common_power(*e, *other));
+                *e = both.unwrap_or_default();
+                both.is_some()
             });
         }
         common.retain(|(base, _)| wanted(self, *base));

@@ -13,7 +13,7 @@ mod lower;
 pub(crate) use diff::{Adjoint, Derivative, Gradient};
 pub(crate) use display::Printer;
 pub(crate) use eval::{Point, Sweep, eval, eval_shaken};
-pub(crate) use fold::is_power_of_two;
+pub(crate) use fold::{common_power, is_power_of_two};
 pub(crate) use formula::{Block, Formula, Letters, Name, families};
 pub(crate) use functions::{Cost, Func};
 pub(crate) use graph::{Graph, Id, Map, Node, Num, Set, Symbol};

@@ -271,12 +271,9 @@ impl Matrix {
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
-            name: names[k].clone(),
-            position: k,
-            value: numerator,
             reference,
             droppable,
-            may_vanish: false,
+            ..Divisor::positive(k, numerator, names)
         };
         let one = g.one();
         // Of a row that may be left out no division is put off.

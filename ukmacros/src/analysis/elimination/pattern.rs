@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const SMALL: f64 = 1.0 / 64.0;
 
 /// What is left of K. Positions: coordinate i is i, constraint i is n + i.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(super) struct Pattern {
     n: usize,
     left: BTreeSet<usize>,
@@ -50,15 +50,10 @@ impl Pattern {
             near: vec![BTreeSet::new(); size],
             inertia: (0..n).map(|i| d.mass.contains_key(&(i, i))).collect(),
             own: vec![BTreeSet::new(); size],
-            fixed: BTreeMap::new(),
             coupled: vec![false; size],
             depth: vec![0; size],
-            steady: BTreeSet::new(),
-            lasting: BTreeSet::new(),
-            turned: BTreeMap::new(),
-            kept: BTreeSet::new(),
-            fill: BTreeSet::new(),
             declared,
+            ..Pattern::default()
         };
         for ((i, j), m) in &d.mass {
             pattern.join(*i, *j);
