@@ -305,8 +305,8 @@ pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
 }
 
 pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
-    let key = declared(input, diag)?;
-    if let Some(Measure { loc, .. }) = key.measure {
+    let mut key = declared(input, diag)?;
+    if let Some(Measure { loc, .. }) = key.measure.take() {
         let message = "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared";
         diag.error(loc, message);
     }
