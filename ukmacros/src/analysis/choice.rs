@@ -3,7 +3,7 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
-use super::frame::{Frame, Turned, opened, turned};
+use super::frame::{Turned, opened, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
@@ -149,7 +149,7 @@ pub(super) fn choose(
         let mut chosen = emitted(system, best.straight, best.hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[best.at];
-            solve.turned = variant.turned.frames.iter().map(Frame::row).collect();
+            solve.turned = variant.turned.frames.iter().map(|f| f.row).collect();
             solve.solved = variant.turned.rows().copied().collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);

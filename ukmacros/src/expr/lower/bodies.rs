@@ -69,8 +69,6 @@ pub(super) struct Declared {
     pub(super) variables: Vec<Variable>,
     /// Its frame, once it is used.
     pub(super) frame: Option<Rc<Frame>>,
-    /// Its frame is being made.
-    pending: bool,
 }
 
 impl fmt::Display for Frame {
@@ -239,7 +237,6 @@ impl<'m> Lowering<'m> {
                     body: body.clone(),
                     variables: scope.variables.clone(),
                     frame: None,
-                    pending: false,
                 });
             }
         });
@@ -282,8 +279,7 @@ impl<'m> Lowering<'m> {
         {
             return Value::Error;
         }
-        let declared = self.bodies.get(*position).and_then(Option::as_ref);
-        if declared.is_some_and(|declared| declared.pending) {
+        if self.pending.contains(position) {
             let message = format!("where `{name}` sits cannot depend on `{name}` itself");
             return self.error(name.span(), message);
         }
@@ -305,17 +301,11 @@ impl<'m> Lowering<'m> {
             chain.push(parent);
         }
         for body in chain.into_iter().rev() {
-            self.pending(body, true);
+            self.pending.push(body);
             self.place(body);
-            self.pending(body, false);
+            self.pending.pop();
         }
         self.bodies[position].as_ref()?.frame.clone()
-    }
-
-    fn pending(&mut self, position: usize, pending: bool) {
-        if let Some(Some(declared)) = self.bodies.get_mut(position) {
-            declared.pending = pending;
-        }
     }
 
     /// Makes the frame of the body at `position`, which hangs on none, or on one whose frame is known.

@@ -100,6 +100,7 @@ fn lower_with<'m>(
         lets: HashMap::new(),
         unfinished: HashSet::new(),
         bodies: Vec::new(),
+        pending: Vec::new(),
         written: false,
         active: Vec::new(),
         depth: 0,
@@ -142,6 +143,8 @@ struct Lowering<'m> {
     unfinished: HashSet<String>,
     /// By their place in [`Model::body_elements`]; nothing for those in error.
     bodies: Vec<Option<Declared>>,
+    /// The positions of those whose frames are being made.
+    pending: Vec<usize>,
     /// A text of this compiler's own is being lowered, in which functions have the meaning that they have here.
     written: bool,
     /// Functions being applied, against recursion.

@@ -12,7 +12,7 @@ use crate::expr::diff::Derivative;
 use crate::expr::eval::eval;
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id, Symbol};
-use crate::model::{Scope, Step};
+use crate::model::{Joint, Scope, Step};
 use crate::parse::{Expr, ExprKind};
 use std::rc::Rc;
 use ukunits::Dimension;
@@ -211,14 +211,7 @@ impl<'m> Lowering<'m> {
         moved.shift(&arm, &mut self.graph);
         let mut next = joint.first;
         for step in joint.kind.steps {
-            self.step(
-                step,
-                &mut next,
-                &mut moved,
-                &inner,
-                joint.call.span().into(),
-                &joint.args,
-            )?;
+            self.step(step, &mut next, &mut moved, &inner, joint)?;
         }
         self.note(
             joint.kind.name,
@@ -245,16 +238,16 @@ impl<'m> Lowering<'m> {
         })
     }
 
-    /// One step of a joint with these arguments, the next coordinate of which is at the position `next` in q.
+    /// One step of a `joint`, the next coordinate of which is at the position `next` in q.
     fn step(
         &mut self,
         step: &Step,
         next: &mut usize,
         moved: &mut Moved,
         inner: &Env<'m>,
-        loc: Loc,
-        args: &[Expr],
+        joint: &Joint,
     ) -> Option<()> {
+        let loc = joint.call.span().into();
         let mut coordinate = |g: &mut Graph| {
             *next += 1;
             g.symbol(Symbol::Coord(*next - 1))
@@ -292,7 +285,7 @@ impl<'m> Lowering<'m> {
             }
             Step::Fix(matrix) => {
                 let turn = self.sound(matrix, loc, inner)?;
-                self.rotates(&turn, args)?;
+                self.rotates(&turn, &joint.args)?;
                 if turn.shape() == [2, 2] {
                     let angle = self.sound("angle", loc, inner)?.entries()[0];
                     moved.angle = self.graph.sum(&[(1.0, moved.angle), (1.0, angle)]);
