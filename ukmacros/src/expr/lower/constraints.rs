@@ -61,7 +61,6 @@ impl<'m> Lowering<'m> {
             indices: self.indices(&key.indices, scope)?,
             components: Vec::new(),
             row: None,
-            unit_of: None,
         })
     }
 

@@ -60,10 +60,9 @@ impl<'m> Lowering<'m> {
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
                 if let Some(first) = own {
-                    let name = body.key.name.clone();
-                    let at = &self.model.body_elements[position];
-                    let unit = self.unit(&name, &at.name, &at.indices, first + 3, loc);
-                    out.units.push(unit);
+                    let indices = &self.model.body_elements[position].indices;
+                    out.units
+                        .push(self.unit(&body.key.name, indices, first + 3, loc));
                 }
             } else {
                 let inertia =
@@ -89,14 +88,9 @@ impl<'m> Lowering<'m> {
         }
         for joint in &self.model.joints {
             if joint.kind.coordinates.len() == 4 {
-                let unit = self.unit(
-                    &joint.key,
-                    &joint.name,
-                    &joint.indices,
-                    joint.first,
-                    joint.key.span().into(),
-                );
-                out.units.push(unit);
+                let (name, loc) = (&joint.key, joint.key.span().into());
+                out.units
+                    .push(self.unit(name, &joint.indices, joint.first, loc));
             }
         }
         out.diagonal.retain(|(_, m, _)| !self.graph.is_zero(*m));
@@ -316,15 +310,8 @@ impl<'m> Lowering<'m> {
         Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
 
-    /// The row that keeps the quaternion whose coordinates begin at `first` a unit: that of `owner`, called `name` with `indices`.
-    fn unit(
-        &mut self,
-        name: &Ident,
-        owner: &str,
-        indices: &[usize],
-        first: usize,
-        loc: Loc,
-    ) -> Constraint {
+    /// The row that keeps the quaternion whose coordinates begin at `first` a unit: that of what is called `name`, with `indices`.
+    fn unit(&mut self, name: &Ident, indices: &[usize], first: usize, loc: Loc) -> Constraint {
         let indices = indices.iter();
         let mut terms = vec![(-1.0, self.graph.one())];
         for i in first..first + 4 {
@@ -335,11 +322,10 @@ impl<'m> Lowering<'m> {
         Constraint {
             item: ConstraintRef {
                 base: Ident::new(&format!("{name}_unit"), name.span()),
-                shown: owner.to_owned(),
+                shown: self.model.shown(&name.to_string()).to_owned(),
                 indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
                 components: Vec::new(),
-                row: None,
-                unit_of: Some(owner.to_owned()),
+                row: Some("unit"),
             },
             kind: Kind::Holonomic,
             phi,
