@@ -62,7 +62,7 @@ impl Variant {
             names: &self.names,
             own,
             further: self.further,
-            redundant: &regular.redundant,
+            redundant: &regular.redundant.rows,
             turned: &self.turned,
             multipliers,
         }
@@ -243,7 +243,7 @@ fn with_velocities(
         None => format!("velocity_{k}"),
     });
     let velocities: Vec<String> = velocities.collect();
-    let (rows, redundant, defaults) = (&regular.rows, &regular.redundant, &system.defaults);
+    let (rows, redundant, defaults) = (&regular.rows, &regular.redundant.rows, &system.defaults);
     let of = |before: &_, g: &mut _| turned(held, lift, rows, redundant, before, defaults, g);
     let mut found = Vec::new();
     match of(&BTreeSet::new(), g) {

@@ -95,7 +95,7 @@ fn multipliers(
     let g = &mut system.graph;
     let unique = straight
         .elimination
-        .unique(&straight.met, regular.excess, &held, g);
+        .unique(&straight.met, regular.redundant.excess, &held, g);
     let multipliers = straight
         .elimination
         .multipliers

@@ -16,7 +16,7 @@
 use super::dynamics::Dynamics;
 use super::groups::Groups;
 use super::probe::{Probe, Random};
-use super::redundant::redundant;
+use super::redundant::{Redundant, redundant};
 use crate::expr::{Graph, Id, Node, Num, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,10 +52,8 @@ pub(crate) struct Regular {
     pub(crate) met: Vec<usize>,
     /// Coordinates of a block that is singular at any state, and that no constraint makes regular.
     pub(crate) singular: Vec<usize>,
-    /// Constraints that follow from others, with these others; not looked for where `singular` refuses the straight line.
-    pub(crate) redundant: BTreeSet<usize>,
-    /// How many of these follow from the others at any state.
-    pub(crate) excess: usize,
+    /// Constraints that imply each other; not looked for where `singular` refuses the straight line.
+    pub(crate) redundant: Redundant,
 }
 
 /// Makes M regular as far as constraints do.
@@ -68,8 +66,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         rows: Vec::new(),
         met: Vec::new(),
         singular: Vec::new(),
-        redundant: BTreeSet::new(),
-        excess: 0,
+        redundant: Redundant::default(),
     };
     let g = &mut system.graph;
     for block in blocks(d, g) {
@@ -92,8 +89,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
     found.met.sort_unstable();
     found.met.dedup();
     if found.singular.is_empty() {
-        let redundant = redundant(d, &system.defaults, &system.graph);
-        (found.redundant, found.excess) = (redundant.rows, redundant.excess);
+        found.redundant = redundant(d, &system.defaults, &system.graph);
     }
     found
 }

@@ -123,30 +123,17 @@ fn lengths_below(id: Id, g: &Graph) -> Vec<Id> {
 /// Everything that M, Q, c, A and b consist of, with the words for it.
 fn terms(d: &Dynamics, names: &[String]) -> Vec<(String, Id)> {
     let n = d.force.len();
-    let mut out = Vec::new();
+    let force = (0..).zip(&d.force).map(|(i, id)| ("force on", i, id));
+    let nonideal = (0..).zip(&d.nonideal);
+    let nonideal = nonideal.map(|(i, id)| ("non-ideal force on", i, id));
+    let mass = d.mass.iter().map(|((i, _), id)| ("mass on", *i, id));
+    let rhs = (n..).zip(&d.rhs).map(|(row, id)| ("constraint", row, id));
+    let jacobian = d.jacobian.iter();
+    let jacobian = jacobian.map(|((row, _), id)| ("constraint", n + row, id));
+    let all = force.chain(nonideal).chain(mass).chain(rhs).chain(jacobian);
+    let named = all.map(|(what, at, id)| (format!("{what} `{}`", names[at]), *id));
     let mut seen = HashSet::new();
-    let mut enter = |what: &str, position: usize, id: Id| {
-        let term = format!("{what} `{}`", names[position]);
-        if seen.insert((term.clone(), id)) {
-            out.push((term, id));
-        }
-    };
-    for (i, id) in d.force.iter().enumerate() {
-        enter("force on", i, *id);
-    }
-    for (i, id) in d.nonideal.iter().enumerate() {
-        enter("non-ideal force on", i, *id);
-    }
-    for ((i, _), id) in &d.mass {
-        enter("mass on", *i, *id);
-    }
-    for (row, id) in d.rhs.iter().enumerate() {
-        enter("constraint", n + row, *id);
-    }
-    for ((row, _), id) in &d.jacobian {
-        enter("constraint", n + row, *id);
-    }
-    out
+    named.filter(|term| seen.insert(term.clone())).collect()
 }
 
 /// What is compared where a node has branches: a number with zero, or with another one.

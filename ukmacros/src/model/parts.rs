@@ -224,27 +224,23 @@ impl Whole<'_> {
         let base = member.part.key.name.to_string();
         let path: String = member.part.path.to_string().split_whitespace().collect();
         let families = self.decl.merged.families.entry(base.clone()).or_default();
-        let reason = match kinds.get(&base) {
-            Some(kind) if *kind != path => Some(format!(
-                "`{base}` is declared as `{kind}` and as `{path}`; rename one"
-            )),
-            Some(_) if families.contains(&member.indices) => Some(format!(
-                "`{}` is declared twice; names must be unique",
-                indexed(&base, &member.indices)
-            )),
-            Some(_)
-                if families
-                    .iter()
-                    .any(|other| other.len() != member.indices.len()) =>
-            {
-                Some(format!(
-                    "`{base}` is declared with different numbers of indices; rename one"
-                ))
+        let other_length = |other: &Vec<i64>| other.len() != member.indices.len();
+        match kinds.get(&base) {
+            Some(kind) if *kind != path => {
+                return Err(format!(
+                    "`{base}` is declared as `{kind}` and as `{path}`; rename one"
+                ));
             }
-            _ => None,
-        };
-        if let Some(reason) = reason {
-            return Err(reason);
+            Some(_) if families.contains(&member.indices) => {
+                let name = indexed(&base, &member.indices);
+                return Err(format!("`{name}` is declared twice; names must be unique"));
+            }
+            Some(_) if families.iter().any(other_length) => {
+                return Err(format!(
+                    "`{base}` is declared with different numbers of indices; rename one"
+                ));
+            }
+            _ => {}
         }
         families.push(member.indices.clone());
         kinds.insert(base, path);
@@ -256,7 +252,6 @@ impl Whole<'_> {
         self.decl.units |= inner.units;
         let fixed = member.fixed(&inner);
         let names = self.names(&inner, member, &fixed);
-        let span = member.part.key.name.span();
         let mut constraints = Vec::new();
         self::names(&inner.holonomic, |c| &c.key, &mut constraints);
         self::names(&inner.nonholonomic, |c| &c.key, &mut constraints);
@@ -265,9 +260,15 @@ impl Whole<'_> {
             let full = format!("{prefix}_{name}");
             (name, full)
         });
-        let constraints = constraints.collect();
-        let parts = inner.merged.families.keys().cloned().collect();
-        let mut renaming = Renaming::new(names, constraints, parts, self.own.clone(), span);
+        let mut renaming = Renaming {
+            names,
+            constraints: constraints.collect(),
+            parts: inner.merged.families.keys().cloned().collect(),
+            hidden: Vec::new(),
+            own: self.own.clone(),
+            clash: None,
+            span: member.part.key.name.span(),
+        };
         self.values(&mut inner, member, &fixed, &mut renaming);
         self.sections(inner, &prefix, &mut renaming);
         if let Some(name) = &renaming.clash {

@@ -42,39 +42,21 @@ pub(super) fn uses(e: &Expr, names: &HashSet<String>) -> bool {
 
 /// Names of a part that become those of the whole, at the place where the part is declared.
 pub(super) struct Renaming {
-    names: HashMap<String, String>,
+    pub(super) names: HashMap<String, String>,
     /// Those of constraints, which [`LOADS`] alone use.
-    constraints: HashMap<String, String>,
+    pub(super) constraints: HashMap<String, String>,
     /// Names of parts.
-    parts: HashSet<String>,
+    pub(super) parts: HashSet<String>,
     /// Arguments of the functions around.
-    hidden: Vec<String>,
+    pub(super) hidden: Vec<String>,
     /// What the whole declares by `let`, and the ground if it declares one: names of the vocabulary that the part means otherwise.
-    own: Rc<HashSet<String>>,
+    pub(super) own: Rc<HashSet<String>>,
     /// One of these that the part uses.
     pub(super) clash: Option<String>,
     pub(super) span: Span,
 }
 
 impl Renaming {
-    pub(super) fn new(
-        names: HashMap<String, String>,
-        constraints: HashMap<String, String>,
-        parts: HashSet<String>,
-        own: Rc<HashSet<String>>,
-        span: Span,
-    ) -> Self {
-        Renaming {
-            names,
-            constraints,
-            parts,
-            hidden: Vec::new(),
-            own,
-            clash: None,
-            span,
-        }
-    }
-
     pub(super) fn name(&mut self, name: &mut Ident) {
         let text = name.to_string();
         let hidden = self.hidden.contains(&text);

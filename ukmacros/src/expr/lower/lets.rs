@@ -112,15 +112,6 @@ impl<'m> Lowering<'m> {
         let Some(indices) = self.indices(&key.indices, scope) else {
             return;
         };
-        let again = match self.lets.get(&name) {
-            None => false,
-            Some(Binding::Family(members)) if !indices.is_empty() => members.contains_key(&indices),
-            Some(_) => true,
-        };
-        let length = match self.lets.get(&name) {
-            Some(Binding::Family(members)) => members.keys().next().map(Vec::len),
-            _ => None,
-        };
         if let LetValue::Function(f) = &binding.value {
             let again = |k: &usize| f.args[..*k].contains(&f.args[*k]);
             if let Some(k) = (0..f.args.len()).find(again) {
@@ -131,13 +122,18 @@ impl<'m> Lowering<'m> {
                 );
             }
         }
-        let taken = match self.model.free(&key.name) {
-            Err(reason) => Some(reason),
-            Ok(()) if again => Some(format!("`{name}` is declared twice; names must be unique")),
-            Ok(()) if length.is_some_and(|n| n != indices.len()) => Some(format!(
-                "`{name}` is declared with different numbers of indices; rename one"
-            )),
-            Ok(()) => None,
+        let taken = match (self.model.free(&key.name), self.lets.get(&name)) {
+            (Err(reason), _) => Some(reason),
+            (Ok(()), None) => None,
+            (Ok(()), Some(Binding::Family(members)))
+                if !indices.is_empty() && !members.contains_key(&indices) =>
+            {
+                let other = members.keys().any(|known| known.len() != indices.len());
+                other.then(|| {
+                    format!("`{name}` is declared with different numbers of indices; rename one")
+                })
+            }
+            _ => Some(format!("`{name}` is declared twice; names must be unique")),
         };
         if let Some(reason) = taken {
             self.diag.error(key.loc, reason);

@@ -15,21 +15,17 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         let shown = format!("`{text}`");
         let argument = env.args.iter().rev().find(|(n, _)| *n == text);
-        if let Some((_, value)) = argument {
-            let value = value.clone();
-            return self.part(value, &shown, indices, env);
-        }
-        if let Some(i) = env.scope.lookup(&text) {
+        let value = match (argument, env.scope.lookup(&text)) {
+            (Some((_, value)), _) => value.clone(),
             #[allow(
                 clippy::cast_precision_loss,
                 reason = "an integer in a formula is a number"
             )]
-            let value = Value::Scalar(self.graph.constant(i as f64));
-            return self.part(value, &shown, indices, env);
-        }
-        let value = match text.as_str() {
-            "t" => self.allowed(Symbol::Time, name.span(), env),
-            "PI" => Value::Scalar(self.graph.constant(std::f64::consts::PI)),
+            (None, Some(i)) => Value::Scalar(self.graph.constant(i as f64)),
+            (None, None) if text == "t" => self.allowed(Symbol::Time, name.span(), env),
+            (None, None) if text == "PI" => {
+                Value::Scalar(self.graph.constant(std::f64::consts::PI))
+            }
             _ => return self.declared(name, indices, env),
         };
         self.part(value, &shown, indices, env)
