@@ -58,21 +58,17 @@ impl Variant {
     ) -> Task<'a> {
         Task {
             dynamics: &self.dynamics,
-            weights: self.weights(regular),
+            // Nothing was added to M where coordinates are turned.
+            weights: match self.turned.is_empty() {
+                true => &regular.weights,
+                false => &[],
+            },
             names: &self.names,
             own,
             further: self.further,
             redundant: &regular.redundant.rows,
             turned: &self.turned,
             multipliers,
-        }
-    }
-
-    /// What was added to M: nothing where coordinates are turned.
-    fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
-        match self.turned.is_empty() {
-            true => &regular.weights,
-            false => &[],
         }
     }
 }

@@ -42,31 +42,27 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Values of the parameters' defaults.
-    pub(super) fn defaults(&mut self) -> Vec<f64> {
-        let mut defaults: Vec<f64> = Vec::new();
+    /// Enters the values of the parameters' defaults, each of which may use those before it.
+    pub(super) fn enter_defaults(&mut self) {
         // The default that the one before had, and the numbers of it that are left.
         let mut shared: Option<(&Rc<Preset>, std::vec::IntoIter<f64>)> = None;
         for element in &self.model.param_elements {
-            self.known_params = defaults.len();
             let Some(preset) = &element.default else {
-                defaults.push(f64::NAN);
+                self.defaults.push(f64::NAN);
                 continue;
             };
             let same = shared.take().filter(|(last, _)| Rc::ptr_eq(last, preset));
             let mut rest = match same {
                 Some((_, rest)) => rest,
-                None => self.preset(preset, &element.name, &defaults).into_iter(),
+                None => self.preset(preset, &element.name).into_iter(),
             };
-            defaults.push(rest.next().unwrap_or(f64::NAN));
+            self.defaults.push(rest.next().unwrap_or(f64::NAN));
             shared = Some((preset, rest));
         }
-        self.known_params = defaults.len();
-        defaults
     }
 
-    /// The numbers that a default gives to all that is declared with it, of which the first is `name`. `known` are those before.
-    fn preset(&mut self, preset: &Preset, name: &str, known: &[f64]) -> Vec<f64> {
+    /// The numbers that a default gives to all that is declared with it, of which the first is `name`.
+    fn preset(&mut self, preset: &Preset, name: &str) -> Vec<f64> {
         let count = preset.shape.iter().product();
         let (scope, loc) = (
             Scope::with(self.model, preset.variables.clone()),
@@ -89,7 +85,7 @@ impl<'m> Lowering<'m> {
             }
         };
         self.measure_parameters(&ids, count);
-        let numbers = eval(&self.graph, &ids, &Point::of_parameters(known));
+        let numbers = eval(&self.graph, &ids, &Point::of_parameters(&self.defaults));
         if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
             self.finite_number(&format!("default of `{name}`"), *wrong, loc);
         }

@@ -107,7 +107,6 @@ fn lower_with<'m>(
         outermost: None,
         oversized: false,
         defaults: Vec::new(),
-        known_params: 0,
         hints: Map::default(),
         unknown: HashSet::new(),
         results: HashMap::new(),
@@ -155,10 +154,8 @@ struct Lowering<'m> {
     outermost: Option<Loc>,
     /// An array that is too long was reported.
     oversized: bool,
-    /// Defaults of the parameters, once they are known.
+    /// Defaults of the parameters that have theirs: those a default may use.
     defaults: Vec<f64>,
-    /// Parameters whose default is known: those a default may use.
-    known_params: usize,
     hints: Map<Id, String>,
     /// Names and functions that were reported to be unknown.
     unknown: HashSet<String>,
@@ -202,7 +199,7 @@ impl<'m> Lowering<'m> {
         let top = Scope::new(self.model);
         let declared = |section: &str| decl.sections.contains_key(section);
         let constants = self.constants(&top);
-        self.defaults = self.defaults();
+        self.enter_defaults();
         self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 

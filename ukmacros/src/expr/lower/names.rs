@@ -280,7 +280,7 @@ impl<'m> Lowering<'m> {
         let id = self.graph.symbol(symbol);
         if env.place == Place::Default
             && let Symbol::Param(i) = symbol
-            && i >= self.known_params
+            && i >= self.defaults.len()
         {
             return self.error(span, "a default may use parameters declared above it only");
         }
