@@ -8,7 +8,6 @@
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random, Shake};
 use crate::expr::{Graph, Id, Jet, Kind, Node, Symbol, System, eval_shaken};
-use std::cell::RefCell;
 use std::collections::HashSet;
 
 /// Relative difference that rounding can explain at arguments of order one; a wrong derivative is off by far more.
@@ -28,18 +27,16 @@ pub(crate) fn verify(system: &System, dynamics: &Dynamics, n: usize) -> Vec<Stri
             pairs.extend(motion.lagrange(&direction, system, dynamics, shake));
             pairs
         };
-        let pairs = RefCell::new(Vec::new());
+        let mut pairs = Vec::new();
         let bounds = Shake::bounds(|shake| {
             let now = compare(shake);
             let values = now.iter().flat_map(|pair| [pair.found, pair.expected]);
             let values = values.collect();
-            let mut first = pairs.borrow_mut();
-            if first.is_empty() {
-                *first = now;
+            if pairs.is_empty() {
+                pairs = now;
             }
             values
         });
-        let pairs = pairs.into_inner();
         let bounds = bounds.chunks_exact(2).map(|of| of[0].1 + of[1].1);
         let wrong = pairs.into_iter().zip(bounds);
         let wrong = wrong.filter(|(pair, rounding)| !pair.agrees(*rounding));

@@ -77,7 +77,20 @@ impl fmt::Display for Frame {
     }
 }
 
+impl Point {
+    pub(super) fn of(body: Rc<Frame>, place: Value) -> Value {
+        Value::Point(Rc::new(Point { body, place }))
+    }
+}
+
 impl Frame {
+    pub(super) fn ground() -> Rc<Self> {
+        Rc::new(Frame {
+            name: "ground".to_owned(),
+            moving: None,
+        })
+    }
+
     /// The length of vectors where it lives; nothing for the ground, which lives anywhere.
     pub(super) fn dimension(&self) -> Option<usize> {
         let moving = self.moving.as_ref()?;
@@ -348,11 +361,7 @@ impl<'m> Lowering<'m> {
             });
             declared.frame = Some(frame.clone());
             if self.model.hung[position].is_some() {
-                let point = Point {
-                    body: frame,
-                    place: hangs,
-                };
-                self.note("tree", &[Value::Point(Rc::new(point))]);
+                self.note("tree", &[Point::of(frame, hangs)]);
             }
         }
     }
@@ -374,14 +383,6 @@ impl<'m> Lowering<'m> {
             return None;
         }
         Some(value.entries().to_vec())
-    }
-
-    /// The ground, where nothing else has its name.
-    pub(super) fn ground() -> Value {
-        Value::Body(Rc::new(Frame {
-            name: "ground".to_owned(),
-            moving: None,
-        }))
     }
 
     /// `body.at(p)`, `body.along(d)`: also of the body that a point belongs to.
@@ -426,10 +427,10 @@ impl<'m> Lowering<'m> {
             );
         }
         let value = match name == "at" {
-            true => Value::Point(Rc::new(Point {
-                place: frame.at(&value, &mut self.graph),
-                body: frame,
-            })),
+            true => {
+                let place = frame.at(&value, &mut self.graph);
+                Point::of(frame, place)
+            }
             false => frame.along(&value, &mut self.graph),
         };
         self.allowed_value(value, e.loc, env)

@@ -1,6 +1,7 @@
 //! Names, members, and what may stand where.
 
 use super::array::{MAX_ENTRIES, Value, describe};
+use super::bodies::Frame;
 use super::{Binding, Env, Lowering, NoValue, Place};
 use crate::diag::{Diagnostics, Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
@@ -76,7 +77,7 @@ impl<'m> Lowering<'m> {
                     name.span(),
                     format!("`{text}` is a function; call it: `{text}(…)`"),
                 ),
-                None if text == "ground" && indices.is_empty() => Self::ground(),
+                None if text == "ground" && indices.is_empty() => Value::Body(Frame::ground()),
                 None => self.unknown(name, env),
             },
         }

@@ -166,10 +166,7 @@ impl<'m> Lowering<'m> {
         let dimension = centre.len();
         let carrier = match joint.parent {
             Some(parent) => self.bodies[parent].as_ref()?.frame.clone()?,
-            None => match Self::ground() {
-                Value::Body(ground) => ground,
-                _ => return None,
-            },
+            None => Frame::ground(),
         };
         let itself = Rc::new(Frame {
             name: body.name.clone(),
@@ -192,10 +189,7 @@ impl<'m> Lowering<'m> {
             let v = self.value(&parts[1], &env);
             self.expect_all(&v, Dimension::LENGTH, "a place", parts[1].loc);
             let v = self.of_shape(&v, &[dimension], parts[1].loc)?;
-            values.push(Value::Point(Rc::new(Point {
-                body: body.clone(),
-                place: Value::vector(v),
-            })));
+            values.push(Point::of(body.clone(), Value::vector(v)));
         }
         let (from, reference) = (values[0].entries().to_vec(), values[1].entries().to_vec());
         values.extend(joint.args[2..].iter().map(|arg| self.argument(arg, &env)));
@@ -213,13 +207,7 @@ impl<'m> Lowering<'m> {
         for step in joint.kind.steps {
             self.step(step, &mut next, &mut moved, &inner, joint)?;
         }
-        self.note(
-            joint.kind.name,
-            &[Value::Point(Rc::new(Point {
-                body: carrier.clone(),
-                place: from_place,
-            }))],
-        );
+        self.note(joint.kind.name, &[Point::of(carrier, from_place)]);
         let name = &body.name;
         self.hint(&format!("{name}.axes"), &moved.axes);
         self.hint(&format!("{name}.spin"), &moved.omega);
