@@ -32,7 +32,8 @@ pub(super) fn solve(
     let solved = multipliers(system, held, regular, names)?;
     let (g, places) = self::places(system, held, regular, switches);
     let roots: Vec<Id> = places.iter().map(|id| **id).collect();
-    let mut known = g.rewritten(&roots, |g, id, _| match *g.node(id) {
+    let order = g.reachable(&roots);
+    let mut known = g.rewritten(&order, |g, id, _| match *g.node(id) {
         Node::Symbol(Symbol::Multiplier(row)) => Some(solved[row]),
         _ => None,
     });

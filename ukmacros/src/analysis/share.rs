@@ -41,7 +41,7 @@ pub(crate) fn shared(g: &mut Graph, roots: &[Id]) -> Map<Id, Id> {
         sharing.take(pair);
         saved += saves;
     }
-    let new = sharing.rewritten(roots, g);
+    let new = sharing.rewritten(&order, g);
     let longest = |last: &dyn Fn(Id) -> Id| {
         let latency = roots.iter().map(|root| g.latency(last(*root)));
         latency.max().unwrap_or(0)
@@ -154,7 +154,7 @@ impl Sharing {
     }
 
     /// New nodes of what changes.
-    fn rewritten(&self, roots: &[Id], g: &mut Graph) -> Map<Id, Id> {
+    fn rewritten(&self, order: &[Id], g: &mut Graph) -> Map<Id, Id> {
         let changed = |product: &&Product| {
             let both = |k: &usize| matches!(self.known[*k], Factor::Both(..));
             product.factors.iter().any(both)
@@ -162,7 +162,7 @@ impl Sharing {
         let products = self.products.iter().filter(changed);
         let products: Map<Id, &Product> = products.map(|p| (p.at, p)).collect();
         let mut values: Vec<Option<Id>> = vec![None; self.known.len()];
-        let mut new = g.rewritten(roots, |g, id, new| {
+        let mut new = g.rewritten(order, |g, id, new| {
             let product = products.get(&id)?;
             let others = product.others.iter();
             let mut factors: Vec<(Id, i32)> = others.map(|(factor, e)| (new[factor], *e)).collect();

@@ -43,7 +43,8 @@ pub(crate) fn hold(
     let mut held = dynamics.clone();
     let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
     let turns = |id: &Id| branches(g.node(*id)).is_some() || !lengths_below(*id, g).is_empty();
-    if !g.reachable(&roots).iter().any(turns) {
+    let order = g.reachable(&roots);
+    if !order.iter().any(turns) {
         return (held, Vec::new());
     }
     let mut switches = Found::default();
@@ -66,7 +67,7 @@ pub(crate) fn hold(
         numbers,
         branches: Map::default(),
     };
-    let known = g.rewritten(&roots, |g, id, known| pass.rewrite(id, known, g));
+    let known = g.rewritten(&order, |g, id, known| pass.rewrite(id, known, g));
     for id in held.equations_mut() {
         *id = known[id];
     }

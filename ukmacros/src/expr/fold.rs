@@ -458,24 +458,25 @@ impl Graph {
         }
     }
 
-    /// The new nodes of all that `roots` are made of: what `changed` gives for a node, from those of its operands, or else the node with
+    /// The new nodes of those in `order`, operands before users: what `changed` gives for a node, from those before it, or else the node with
     /// these in their places.
     pub(crate) fn rewritten(
         &mut self,
-        roots: &[Id],
+        order: &[Id],
         mut changed: impl FnMut(&mut Self, Id, &Map<Id, Id>) -> Option<Id>,
     ) -> Map<Id, Id> {
-        let mut known: Map<Id, Id> = Map::default();
-        for id in self.reachable(roots) {
-            let kept = |operand: &Id| known[operand] == *operand;
-            let new = match changed(self, id, &known) {
-                Some(new) => new,
-                None if self.operands(id).iter().all(kept) => id,
-                None => self.with_operands(id, |_, operand| known[&operand]),
+        let mut new: Map<Id, Id> = Map::default();
+        for id in order {
+            let of = |operand: Id| new.get(&operand).copied().unwrap_or(operand);
+            let kept = |operand: &Id| of(*operand) == *operand;
+            let now = match changed(self, *id, &new) {
+                Some(now) => now,
+                None if self.operands(*id).iter().all(kept) => *id,
+                None => self.with_operands(*id, |_, operand| of(operand)),
             };
-            known.insert(id, new);
+            new.insert(*id, now);
         }
-        known
+        new
     }
 
     /// `id`, which was held, in another form: held as it is, with its coefficient.
