@@ -3,7 +3,7 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
-use super::frame::{Frame, Turned, opened, turned};
+use super::frame::{Turned, opened, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
@@ -11,6 +11,7 @@ use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, Map, System};
 use std::collections::BTreeSet;
+use std::mem::take;
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -57,50 +58,23 @@ impl Variant {
     ) -> Task<'a> {
         Task {
             dynamics: &self.dynamics,
-            weights: self.weights(regular),
+            // Nothing was added to M where coordinates are turned.
+            weights: match self.turned.is_empty() {
+                true => &regular.weights,
+                false => &[],
+            },
             names: &self.names,
             own,
             further: self.further,
-            redundant: &regular.redundant,
+            redundant: &regular.redundant.rows,
             turned: &self.turned,
             multipliers,
         }
     }
-
-    /// What was added to M: nothing where coordinates are turned.
-    fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
-        match self.turned.is_empty() {
-            true => &regular.weights,
-            false => &[],
-        }
-    }
 }
 
-/// What each way to solve begins with, or ends with.
-struct Nodes {
-    graph: Graph,
-    hints: Map<Id, String>,
-}
-
-impl Nodes {
-    fn taken(system: &mut System) -> Self {
-        Nodes {
-            graph: std::mem::take(&mut system.graph),
-            hints: std::mem::take(&mut system.inner_hints),
-        }
-    }
-
-    fn give(self, system: &mut System) {
-        (system.graph, system.inner_hints) = (self.graph, self.hints);
-    }
-
-    fn copy(system: &System) -> Self {
-        Nodes {
-            graph: system.graph.clone(),
-            hints: system.inner_hints.clone(),
-        }
-    }
-}
+/// The nodes that a way to solve begins with, or ends with, and their names.
+type Nodes = (Graph, Map<Id, String>);
 
 /// A way that was gone to its end.
 struct Tried {
@@ -138,12 +112,12 @@ pub(super) fn choose(
     let tasks = tasks.map(|variant| variant.task(regular, own, None));
     let tasks: Vec<Task<'_>> = tasks.collect();
     let ways = ways(&tasks, system, &mut refusal);
-    let base = (ways.len() > 1).then(|| Nodes::copy(system));
+    let base =
+        (ways.len() > 1).then(|| -> Nodes { (system.graph.clone(), system.inner_hints.clone()) });
     let mut best: Option<Tried> = None;
     for (at, order) in ways {
         if let Some(base) = &base {
-            let Nodes { graph, hints } = base;
-            (system.graph, system.inner_hints) = (graph.clone(), hints.clone());
+            (system.graph, system.inner_hints) = base.clone();
         }
         let straight = match eliminate(&tasks[at], order, &mut system.graph) {
             Ok(elimination) => Straight::new(elimination, held, &regular.met, system),
@@ -162,16 +136,16 @@ pub(super) fn choose(
                 straight,
                 hoisted,
                 at,
-                nodes: Nodes::taken(system),
+                nodes: (take(&mut system.graph), take(&mut system.inner_hints)),
             });
         }
     }
     if let Some(best) = best {
-        best.nodes.give(system);
+        (system.graph, system.inner_hints) = best.nodes;
         let mut chosen = emitted(system, best.straight, best.hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[best.at];
-            solve.turned = variant.turned.frames.iter().map(Frame::row).collect();
+            solve.turned = variant.turned.frames.iter().map(|f| f.row).collect();
             solve.solved = variant.turned.rows().copied().collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);
@@ -185,7 +159,7 @@ pub(super) fn choose(
         return chosen;
     }
     if let Some(base) = base {
-        base.give(system);
+        (system.graph, system.inner_hints) = base;
     }
     refused(refusal.unwrap_or_default(), system)
 }
@@ -265,7 +239,7 @@ fn with_velocities(
         None => format!("velocity_{k}"),
     });
     let velocities: Vec<String> = velocities.collect();
-    let (rows, redundant, defaults) = (&regular.rows, &regular.redundant, &system.defaults);
+    let (rows, redundant, defaults) = (&regular.rows, &regular.redundant.rows, &system.defaults);
     let of = |before: &_, g: &mut _| turned(held, lift, rows, redundant, before, defaults, g);
     let mut found = Vec::new();
     match of(&BTreeSet::new(), g) {

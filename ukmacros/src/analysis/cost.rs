@@ -30,19 +30,16 @@ impl Operations {
 
     /// The counts, in the order of the fields.
     pub(crate) fn counts(self) -> [usize; 6] {
-        let (n, root) = (self.transcendentals, self.square_roots);
         [
             self.additions,
             self.multiplications,
             self.divisions,
-            root,
-            n,
+            self.square_roots,
+            self.transcendentals,
             self.selections,
         ]
     }
-}
 
-impl Operations {
     /// All of them, each as some multiplications.
     pub(crate) fn work(self) -> usize {
         let quick = self.additions + self.multiplications + self.selections;

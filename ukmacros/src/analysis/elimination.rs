@@ -254,22 +254,21 @@ pub(crate) fn eliminate(
         rows.map(|(id, s)| g.scale(sign / s, *id)).collect()
     };
     let rhs = scaled(1.0, &d.rhs, g);
-    let mut hints = Vec::new();
     let whole = !task.turned.is_empty();
-    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, whole, g);
+    let mut matrix = Matrix::new(d, names, &jacobian, &order.pivots, droppable, whole, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.
     let mut fixed: Vec<Divisor> = common.into_iter().collect();
     fixed.extend(task.turned.joints.iter().map(|joint| {
-        let [value, reference] = joint.share();
+        let [value, reference] = joint.share;
         Divisor {
             reference,
-            ..Divisor::positive(d.force.len() + joint.rows()[0], value, names)
+            ..Divisor::positive(d.force.len() + joint.rows[0], value, names)
         }
     }));
     for step in &order.pivots {
-        let (factor, checked) = matrix.step(*step, names, g, &mut hints)?;
+        let (factor, checked) = matrix.step(*step, g)?;
         motion.step(&factor, g);
         match factor {
             Factor::Double(_) => fixed.extend(checked),
@@ -278,7 +277,7 @@ pub(crate) fn eliminate(
         factors.push(factor);
     }
     fixed.extend(inertia(d, divisors.iter().map(|(d, _)| d), names, g));
-    let all = task.multipliers.is_some();
+    let (all, mut hints) = (task.multipliers.is_some(), matrix.hints);
     let mut motion = motion.solution(&factors, all, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     let shares = match task.multipliers {

@@ -27,9 +27,10 @@ const RIGHT: f64 = 1e-13;
 
 /// Coordinates e with their R.
 pub(crate) struct Frame {
-    coordinates: Vec<usize>,
+    /// In ascending order; the constraint gives what stands for the first, definitions what stands for the others.
+    pub(super) coordinates: Vec<usize>,
     /// The constraint.
-    row: usize,
+    pub(super) row: usize,
     /// The definitions, in the order of the further columns.
     definitions: Vec<usize>,
     /// a and the c_k, with the squares of their lengths.
@@ -54,16 +55,6 @@ struct Row {
 }
 
 impl Frame {
-    /// The constraint.
-    pub(super) fn row(&self) -> usize {
-        self.row
-    }
-
-    /// In ascending order; the constraint gives what stands for the first, definitions what stands for the others.
-    pub(super) fn coordinates(&self) -> &[usize] {
-        &self.coordinates
-    }
-
     /// Rᵀ u.
     fn across(&self, u: &[Id], g: &mut Graph) -> Vec<Id> {
         let columns = self.columns.iter();
@@ -255,12 +246,12 @@ impl Turned {
     /// The constraints of frames that may cost less with vectors divided before.
     pub(crate) fn cheaper_before(&self) -> BTreeSet<usize> {
         let frames = self.frames.iter().filter(|frame| frame.fewer_before);
-        frames.map(Frame::row).collect()
+        frames.map(|frame| frame.row).collect()
     }
 
     /// The constraints that are solved for rates.
     pub(crate) fn rows(&self) -> impl Iterator<Item = &usize> {
-        self.joints.iter().flat_map(Joint::rows)
+        self.joints.iter().flat_map(|joint| &joint.rows)
     }
 
     /// The right-hand side of the constraints as they are turned, in the place of `values`.

@@ -69,165 +69,133 @@ pub(crate) struct Function {
     pub(crate) operations: Operations,
 }
 
+/// Values that a function writes, with the slice that they go to, if they do, and its length.
+type Written = (Option<(Slice, usize)>, Vec<(Place, Id)>);
+
 /// All functions that are emitted, in the order of the trait.
 pub(crate) fn functions(system: &mut System, hoisted: &Hoisted) -> Vec<Function> {
     let d = &hoisted.dynamics;
-    let (n, m) = (d.force.len(), d.rhs.len());
-    let mut builder = Builder { system };
-    let mut functions = vec![
-        builder.all(Role::Prepare, Slice::Prepared, &hoisted.values),
-        builder.dynamics(d),
-        builder.function(Role::MassMatrix, vec![(Slice::Mass, n * n)], mass(d)),
-        builder.function(Role::Jacobian, vec![(Slice::Jacobian, n * m)], jacobian(d)),
-        builder.all(Role::Residual, Slice::Phi, &d.phi),
-        builder.all(Role::ResidualRate, Slice::Rate, &d.rate),
-        builder.function(
-            Role::Energy,
-            Vec::new(),
-            vec![(Place::Kinetic, d.kinetic), (Place::Potential, d.potential)],
-        ),
-        builder.all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
+    let mut plain = |role: Role, written: &[Written]| function(role, written, None, system);
+    let terms = [
+        mass(d),
+        elements(Slice::Force, &d.force),
+        elements(Slice::Nonideal, &d.nonideal),
+        jacobian(d),
+        elements(Slice::Rhs, &d.rhs),
     ];
-    if !hoisted.integrands.is_empty() {
-        let integrands = builder.all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
-        functions.push(integrands);
+    let energies = vec![(Place::Kinetic, d.kinetic), (Place::Potential, d.potential)];
+    let mut functions = vec![
+        plain(Role::Prepare, &[elements(Slice::Prepared, &hoisted.values)]),
+        plain(Role::Dynamics, &terms),
+        plain(Role::MassMatrix, &[mass(d)]),
+        plain(Role::Jacobian, &[jacobian(d)]),
+        plain(Role::Residual, &[elements(Slice::Phi, &d.phi)]),
+        plain(Role::ResidualRate, &[elements(Slice::Rate, &d.rate)]),
+        plain(Role::Energy, &[(None, energies)]),
+        plain(Role::Outputs, &[elements(Slice::Outputs, &hoisted.outputs)]),
+    ];
+    for (role, slice, ids) in [
+        (Role::Integrands, Slice::Integrands, &hoisted.integrands),
+        (Role::Drawing, Slice::Drawing, &hoisted.drawing),
+        (Role::Switching, Slice::Switching, &hoisted.switches),
+    ] {
+        if !ids.is_empty() {
+            functions.push(plain(role, &[elements(slice, ids)]));
+        }
     }
-    if !hoisted.drawing.is_empty() {
-        functions.push(builder.all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
-    }
-    if !hoisted.switches.is_empty() {
-        functions.push(builder.all(Role::Switching, Slice::Switching, &hoisted.switches));
-    }
-    functions.extend(builder.acceleration(hoisted));
+    functions.extend(acceleration(system, hoisted));
     if let Ok(straight) = &hoisted.straight {
-        let (values, safe) = (&straight.elimination.correction, straight.certificate);
-        functions.push(builder.solve(Role::Correction, straight, values, safe));
+        let written = solution(&straight.elimination.correction, straight.certificate);
+        functions.push(function(Role::Correction, &written, Some(straight), system));
     }
     functions
 }
 
 /// The straight-line solve for q̈, if there is one.
 pub(crate) fn acceleration(system: &mut System, hoisted: &Hoisted) -> Option<Function> {
-    Builder { system }.acceleration(hoisted)
+    let straight = hoisted.straight.as_ref().ok()?;
+    let written = solution(&straight.elimination.acceleration, straight.met_too);
+    Some(function(
+        Role::Acceleration,
+        &written,
+        Some(straight),
+        system,
+    ))
 }
 
 /// The values `roots`, which depend on parameters only, as a function like that which prepares others.
 pub(crate) fn of_parameters(system: &System, roots: &[Id]) -> Function {
-    let slices = vec![(Slice::Prepared, roots.len())];
-    let roots = elements(Slice::Prepared, roots);
-    scheduled(system, Role::Prepare, slices, roots, Sequence::Roots, &[])
+    let written = [elements(Slice::Prepared, roots)];
+    scheduled(
+        Role::Prepare,
+        &written,
+        Sequence::Roots,
+        &[],
+        |id| id,
+        system,
+    )
 }
 
-fn scheduled(
-    system: &System,
+/// With what products have in common computed once; what a solve has for stages comes first where it is `straight`.
+fn function(
     role: Role,
-    slices: Vec<(Slice, usize)>,
-    roots: Vec<(Place, Id)>,
+    written: &[Written],
+    straight: Option<&Straight>,
+    system: &mut System,
+) -> Function {
+    let roots = written.iter().flat_map(|(_, roots)| roots);
+    let roots: Vec<Id> = roots.map(|(_, id)| *id).collect();
+    let new = shared(&mut system.graph, &roots);
+    let last = |id: Id| new.get(&id).copied().unwrap_or(id);
+    system.carry_names(&new);
+    let Some(straight) = straight else {
+        return scheduled(role, written, Sequence::Roots, &[], last, system);
+    };
+    let stages: Vec<Id> = straight.stages.iter().copied().map(last).collect();
+    let stages = Sequence::Stages(&stages);
+    scheduled(role, written, stages, &straight.exits, last, system)
+}
+
+/// What computes values as they are `last`, in this order.
+fn scheduled(
+    role: Role,
+    written: &[Written],
     sequence: Sequence<'_>,
     exits: &[Id],
+    last: impl Fn(Id) -> Id,
+    system: &System,
 ) -> Function {
     let g = &system.graph;
+    let roots = written.iter().flat_map(|(_, roots)| roots);
+    let roots: Vec<(Place, Id)> = roots.map(|(place, id)| (*place, last(*id))).collect();
     let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
     let named = |id: Id| system.hints.contains_key(&id) || system.inner_hints.contains_key(&id);
     let program = schedule(g, &ids, named, sequence);
     Function {
         role,
-        slices,
+        slices: written.iter().filter_map(|(slice, _)| *slice).collect(),
         roots,
-        exits: exits.to_vec(),
+        exits: exits.iter().copied().map(last).collect(),
         operations: count(g, &program.needed, &program.reciprocals),
         program,
     }
 }
 
-struct Builder<'a> {
-    system: &'a mut System,
-}
-
-impl Builder<'_> {
-    /// With what products have in common computed once.
-    fn scheduled(
-        &mut self,
-        role: Role,
-        slices: Vec<(Slice, usize)>,
-        mut roots: Vec<(Place, Id)>,
-        sequence: Sequence<'_>,
-        exits: &[Id],
-    ) -> Function {
-        let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
-        let new = shared(&mut self.system.graph, &ids);
-        let last = |id: &Id| new.get(id).copied().unwrap_or(*id);
-        self.system.carry_names(&new);
-        roots.iter_mut().for_each(|(_, id)| *id = last(id));
-        let exits: Vec<Id> = exits.iter().map(last).collect();
-        let stages: Vec<Id>;
-        let sequence = match sequence {
-            Sequence::Roots => Sequence::Roots,
-            Sequence::Stages(before) => {
-                stages = before.iter().map(last).collect();
-                Sequence::Stages(&stages)
-            }
-        };
-        scheduled(self.system, role, slices, roots, sequence, &exits)
-    }
-
-    fn function(
-        &mut self,
-        role: Role,
-        slices: Vec<(Slice, usize)>,
-        roots: Vec<(Place, Id)>,
-    ) -> Function {
-        self.scheduled(role, slices, roots, Sequence::Roots, &[])
-    }
-
-    /// All `ids`, into one slice.
-    fn all(&mut self, role: Role, slice: Slice, ids: &[Id]) -> Function {
-        self.function(role, vec![(slice, ids.len())], elements(slice, ids))
-    }
-
-    /// The straight-line solve for q̈, if there is one.
-    fn acceleration(&mut self, hoisted: &Hoisted) -> Option<Function> {
-        let straight = hoisted.straight.as_ref().ok()?;
-        let (values, safe) = (&straight.elimination.acceleration, straight.met_too);
-        Some(self.solve(Role::Acceleration, straight, values, safe))
-    }
-
-    /// M, Q, c, A and b.
-    fn dynamics(&mut self, d: &Dynamics) -> Function {
-        let (n, m) = (d.force.len(), d.rhs.len());
-        let mut roots = mass(d);
-        roots.extend(elements(Slice::Force, &d.force));
-        roots.extend(elements(Slice::Nonideal, &d.nonideal));
-        roots.extend(jacobian(d));
-        roots.extend(elements(Slice::Rhs, &d.rhs));
-        let slices = vec![
-            (Slice::Mass, n * n),
-            (Slice::Force, n),
-            (Slice::Nonideal, n),
-            (Slice::Jacobian, n * m),
-            (Slice::Rhs, m),
-        ];
-        self.function(Role::Dynamics, slices, roots)
-    }
-
-    /// A straight-line solve for `values`, with its certificate.
-    fn solve(&mut self, role: Role, straight: &Straight, values: &[Id], safe: Id) -> Function {
-        let mut roots = elements(Slice::Out, values);
-        roots.push((Place::Certificate, safe));
-        let sequence = Sequence::Stages(&straight.stages);
-        let slices = vec![(Slice::Out, values.len())];
-        self.scheduled(role, slices, roots, sequence, &straight.exits)
-    }
-}
-
 /// All elements of a vector.
-fn elements(slice: Slice, ids: &[Id]) -> Vec<(Place, Id)> {
-    let ids = ids.iter().enumerate();
-    ids.map(|(i, id)| (Place::Element(slice, i), *id)).collect()
+fn elements(slice: Slice, ids: &[Id]) -> Written {
+    let places = (0..).map(|i| Place::Element(slice, i));
+    let roots = places.zip(ids.iter().copied());
+    (Some((slice, ids.len())), roots.collect())
+}
+
+/// A solution, with its certificate.
+fn solution(values: &[Id], safe: Id) -> [Written; 2] {
+    let certificate = vec![(Place::Certificate, safe)];
+    [elements(Slice::Out, values), (None, certificate)]
 }
 
 /// Both triangles of M, column by column.
-fn mass(d: &Dynamics) -> Vec<(Place, Id)> {
+fn mass(d: &Dynamics) -> Written {
     let n = d.force.len();
     let mut entries: Vec<(usize, Id)> = Vec::new();
     for ((i, j), id) in &d.mass {
@@ -238,13 +206,15 @@ fn mass(d: &Dynamics) -> Vec<(Place, Id)> {
     }
     entries.sort_unstable_by_key(|(at, _)| *at);
     let place = |(at, id)| (Place::Element(Slice::Mass, at), id);
-    entries.into_iter().map(place).collect()
+    let entries = entries.into_iter().map(place);
+    (Some((Slice::Mass, n * n)), entries.collect())
 }
 
-fn jacobian(d: &Dynamics) -> Vec<(Place, Id)> {
-    let m = d.rhs.len();
+fn jacobian(d: &Dynamics) -> Written {
+    let (n, m) = (d.force.len(), d.rhs.len());
     let place = |((row, column), id): (&(usize, usize), &Id)| {
         (Place::Element(Slice::Jacobian, row + m * column), *id)
     };
-    d.jacobian.iter().map(place).collect()
+    let entries = d.jacobian.iter().map(place);
+    (Some((Slice::Jacobian, n * m)), entries.collect())
 }

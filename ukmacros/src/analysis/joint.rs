@@ -27,24 +27,14 @@ const VARIES: f64 = 1e-6;
 
 /// Rows that were solved for rates.
 pub(crate) struct Joint {
-    rows: Vec<usize>,
+    pub(super) rows: Vec<usize>,
     /// W⁻¹, by rows.
     inverse: Vec<Vec<Id>>,
-    /// (det W)², and ∏ |w|².
-    share: [Id; 2],
+    /// (det W)², which has to keep a share of ∏ |w|², and that.
+    pub(super) share: [Id; 2],
 }
 
 impl Joint {
-    /// (det W)², which has to keep a share of ∏ |w|².
-    pub(super) fn share(&self) -> [Id; 2] {
-        self.share
-    }
-
-    /// Its constraints.
-    pub(super) fn rows(&self) -> &[usize] {
-        &self.rows
-    }
-
     /// Puts W⁻¹ of its rows' `values` in their place.
     pub(super) fn solve(&self, values: &mut [Id], g: &mut Graph) {
         let own: Vec<Id> = self.rows.iter().map(|row| values[*row]).collect();
@@ -185,10 +175,10 @@ pub(super) fn joints(
 fn groups(held: &Dynamics, frames: &[Frame]) -> BTreeMap<[Option<usize>; 2], Vec<usize>> {
     let mut of = vec![None; held.force.len()];
     for (k, frame) in frames.iter().enumerate() {
-        frame.coordinates().iter().for_each(|i| of[*i] = Some(k));
+        frame.coordinates.iter().for_each(|i| of[*i] = Some(k));
     }
     let mut groups: BTreeMap<[Option<usize>; 2], Vec<usize>> = BTreeMap::new();
-    for row in (0..held.phi.len()).filter(|row| frames.iter().all(|f| f.row() != *row)) {
+    for row in (0..held.phi.len()).filter(|row| frames.iter().all(|f| f.row != *row)) {
         let met: Option<BTreeSet<usize>> = held.row(row).map(|(i, _)| of[i]).collect();
         let met: Vec<usize> = met.into_iter().flatten().collect();
         let ends = match met[..] {
@@ -241,7 +231,7 @@ struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// The places of the rates that they are to be solved for.
     fn far(&self) -> &'a [usize] {
-        &self.frames[1].coordinates()[1..]
+        &self.frames[1].coordinates[1..]
     }
 
     /// The rates, by their places among those of the frame, for which the rows can be solved wherever they are met; `d` has the rates.
@@ -294,7 +284,7 @@ impl<'a> Rows<'a> {
 
     /// The rows, and what both frames have of their own.
     fn level(&self, held: &Dynamics, g: &Graph) -> Level {
-        let units = self.frames.map(Frame::row);
+        let units = self.frames.map(|frame| frame.row);
         let all: BTreeSet<usize> = self.rows.iter().copied().chain(units).collect();
         let phi: Vec<Id> = all.iter().map(|row| held.phi[*row]).collect();
         let jacobian = all.iter().enumerate();

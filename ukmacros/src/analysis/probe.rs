@@ -68,7 +68,7 @@ impl Shake {
     }
 
     /// What `values` are, and what rounding can explain of each.
-    pub(crate) fn bounds(values: impl Fn(&mut Shake) -> Vec<f64>) -> Vec<(f64, f64)> {
+    pub(crate) fn bounds(mut values: impl FnMut(&mut Shake) -> Vec<f64>) -> Vec<(f64, f64)> {
         let exact = values(&mut Shake(None)).into_iter();
         let mut bounds: Vec<(f64, f64)> = exact.map(|x| (x, 0.0)).collect();
         for seed in 0..SHAKES {

@@ -12,7 +12,7 @@ use super::dynamics::Dynamics;
 use super::elimination::{Straight, eliminate, orders};
 use super::regular::Regular;
 use super::switches::Switch;
-use crate::expr::{Graph, Id, Map, Node, Symbol, System};
+use crate::expr::{Graph, Id, Node, Symbol, System};
 
 /// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs,
 /// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be
@@ -32,15 +32,11 @@ pub(super) fn solve(
     let solved = multipliers(system, held, regular, names)?;
     let (g, places) = self::places(system, held, regular, switches);
     let roots: Vec<Id> = places.iter().map(|id| **id).collect();
-    let mut known: Map<Id, Id> = Map::default();
-    for id in g.reachable(&roots) {
-        let new = match *g.node(id) {
-            Node::Symbol(Symbol::Multiplier(row)) => solved[row],
-            _ if g.uses(id).multiplier => g.with_operands(id, |_, operand| known[&operand]),
-            _ => id,
-        };
-        known.insert(id, new);
-    }
+    let order = g.reachable(&roots);
+    let mut known = g.rewritten(&order, |g, id, _| match *g.node(id) {
+        Node::Symbol(Symbol::Multiplier(row)) => Some(solved[row]),
+        _ => None,
+    });
     for (place, root) in places.into_iter().zip(roots) {
         *place = known[&root];
     }
@@ -100,7 +96,7 @@ fn multipliers(
     let g = &mut system.graph;
     let unique = straight
         .elimination
-        .unique(&straight.met, regular.excess, &held, g);
+        .unique(&straight.met, regular.redundant.excess, &held, g);
     let multipliers = straight
         .elimination
         .multipliers

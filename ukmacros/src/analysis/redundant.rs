@@ -34,7 +34,7 @@ const MANY: usize = 4;
 const WORK: usize = 600_000;
 
 /// Constraints that imply each other.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Redundant {
     /// Those that follow from others, with these others: which of them is the one too many may change along a motion.
     pub(crate) rows: BTreeSet<usize>,

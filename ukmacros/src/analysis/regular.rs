@@ -16,8 +16,8 @@
 use super::dynamics::Dynamics;
 use super::groups::Groups;
 use super::probe::{Probe, Random};
-use super::redundant::redundant;
-use crate::expr::{Graph, Id, Node, Symbol, System, eval};
+use super::redundant::{Redundant, redundant};
+use crate::expr::{Graph, Id, Node, Num, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15,
@@ -52,10 +52,8 @@ pub(crate) struct Regular {
     pub(crate) met: Vec<usize>,
     /// Coordinates of a block that is singular at any state, and that no constraint makes regular.
     pub(crate) singular: Vec<usize>,
-    /// Constraints that follow from others, with these others; not looked for where `singular` refuses the straight line.
-    pub(crate) redundant: BTreeSet<usize>,
-    /// How many of these follow from the others at any state.
-    pub(crate) excess: usize,
+    /// Constraints that imply each other; not looked for where `singular` refuses the straight line.
+    pub(crate) redundant: Redundant,
 }
 
 /// Makes M regular as far as constraints do.
@@ -68,8 +66,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         rows: Vec::new(),
         met: Vec::new(),
         singular: Vec::new(),
-        redundant: BTreeSet::new(),
-        excess: 0,
+        redundant: Redundant::default(),
     };
     let g = &mut system.graph;
     for block in blocks(d, g) {
@@ -92,8 +89,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
     found.met.sort_unstable();
     found.met.dedup();
     if found.singular.is_empty() {
-        let redundant = redundant(d, &system.defaults, &system.graph);
-        (found.redundant, found.excess) = (redundant.rows, redundant.excess);
+        found.redundant = redundant(d, &system.defaults, &system.graph);
     }
     found
 }
@@ -232,13 +228,12 @@ impl<'a> States<'a> {
             let own = d.row(*row).filter(|(i, _)| block.coordinates.contains(i));
             all.extend(own.map(|(_, a)| a));
         }
-        let values: Vec<Vec<f64>> = probes.iter().map(|p| eval(g, &all, &p.point())).collect();
-        let finite = values.iter().map(|v| v.iter().all(|x| x.is_finite()));
-        let finite: Vec<bool> = finite.collect();
-        let generic = finite[..generic].iter().filter(|f| **f).count();
-        let keep = |at: usize| finite[at];
-        let probes = keep_only(probes, keep);
-        let values = keep_only(values, keep);
+        let values = probes.iter().map(|p| eval(g, &all, &p.point()));
+        let values: Vec<Vec<f64>> = values.collect();
+        let finite = |values: &Vec<f64>| values.iter().all(|x| x.is_finite());
+        let generic = values[..generic].iter().filter(|v| finite(v)).count();
+        let known = probes.into_iter().zip(values);
+        let (probes, values): (Vec<_>, Vec<_>) = known.filter(|(_, v)| finite(v)).unzip();
         let mut states = States {
             probes,
             generic,
@@ -368,11 +363,6 @@ impl<'a> States<'a> {
     }
 }
 
-fn keep_only<T>(list: Vec<T>, keep: impl Fn(usize) -> bool) -> Vec<T> {
-    let list = list.into_iter().enumerate().filter(|(at, _)| keep(*at));
-    list.map(|(_, x)| x).collect()
-}
-
 /// Which of `coordinates` are zero.
 fn choices(coordinates: &[usize]) -> Vec<Vec<usize>> {
     let k = coordinates.len();
@@ -421,10 +411,7 @@ fn bounded(id: Id, g: &Graph) -> bool {
     }
     match g.node(id) {
         Node::Sum(c, terms) => {
-            let positive = |(k, term): &(_, Id)| -> bool {
-                let k: &crate::expr::Num = k;
-                k.get() > 0.0 && bounded(*term, g)
-            };
+            let positive = |(k, term): &(Num, Id)| k.get() > 0.0 && bounded(*term, g);
             (c.get() > 0.0 || terms.iter().any(positive)) && never_negative(id, g)
         }
         Node::Scale(c, inner) => c.get() > 0.0 && bounded(*inner, g),
@@ -441,7 +428,7 @@ fn never_negative(id: Id, g: &Graph) -> bool {
         Node::Const(c) => c.get() >= 0.0,
         Node::Symbol(symbol) => matches!(symbol, Symbol::Param(_)),
         Node::Sum(c, terms) => {
-            let rest = |(k, t): &(crate::expr::Num, Id)| k.get() >= 0.0 && never_negative(*t, g);
+            let rest = |(k, t): &(Num, Id)| k.get() >= 0.0 && never_negative(*t, g);
             c.get() >= 0.0 && terms.iter().all(rest)
         }
         Node::Scale(c, inner) => c.get() >= 0.0 && never_negative(*inner, g),

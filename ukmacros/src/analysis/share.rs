@@ -155,39 +155,23 @@ impl Sharing {
 
     /// New nodes of what changes.
     fn rewritten(&self, order: &[Id], g: &mut Graph) -> Map<Id, Id> {
-        let mut new: Map<Id, Id> = Map::default();
         let changed = |product: &&Product| {
             let both = |k: &usize| matches!(self.known[*k], Factor::Both(..));
             product.factors.iter().any(both)
         };
-        let products: Map<Id, &Product> = self
-            .products
-            .iter()
-            .filter(changed)
-            .map(|p| (p.at, p))
-            .collect();
+        let products = self.products.iter().filter(changed);
+        let products: Map<Id, &Product> = products.map(|p| (p.at, p)).collect();
         let mut values: Vec<Option<Id>> = vec![None; self.known.len()];
-        for id in order {
-            let of = |id: Id, new: &Map<Id, Id>| new.get(&id).copied().unwrap_or(id);
-            let now = match products.get(id) {
-                Some(product) => {
-                    let others = product.others.iter();
-                    let mut factors: Vec<(Id, i32)> =
-                        others.map(|(factor, e)| (of(*factor, &new), *e)).collect();
-                    for k in &product.factors {
-                        factors.push(self.value(*k, &new, &mut values, g));
-                    }
-                    g.product(&factors)
-                }
-                None if g.operands(*id).iter().any(|o| new.contains_key(o)) => {
-                    g.with_operands(*id, |_, operand| of(operand, &new))
-                }
-                None => continue,
-            };
-            if now != *id {
-                new.insert(*id, now);
+        let mut new = g.rewritten(order, |g, id, new| {
+            let product = products.get(&id)?;
+            let others = product.others.iter();
+            let mut factors: Vec<(Id, i32)> = others.map(|(factor, e)| (new[factor], *e)).collect();
+            for k in &product.factors {
+                factors.push(self.value(*k, new, &mut values, g));
             }
-        }
+            Some(g.product(&factors))
+        });
+        new.retain(|old, now| old != now);
         new
     }
 
@@ -200,7 +184,7 @@ impl Sharing {
         g: &mut Graph,
     ) -> (Id, i32) {
         match self.known[k] {
-            Factor::Given(id, e) => (new.get(&id).copied().unwrap_or(id), e),
+            Factor::Given(id, e) => (new[&id], e),
             Factor::Both(a, b) => {
                 if let Some(value) = values[k] {
                     return (value, 1);

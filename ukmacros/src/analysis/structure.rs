@@ -177,22 +177,27 @@ fn slopes(id: Id, g: &mut Graph) -> Vec<Id> {
 
 /// Whether velocities enter `id` by arithmetic alone: no function of them, which may have kinks that derivatives do not show.
 fn smooth(id: Id, g: &Graph) -> bool {
-    let mut stack = vec![id];
-    let mut seen = HashSet::new();
-    while let Some(id) = stack.pop() {
-        if !g.uses(id).velocity || !seen.insert(id) {
-            continue;
-        }
-        if matches!(g.node(id), Node::Call(..) | Node::Select(_)) {
-            return false;
-        }
-        stack.extend(g.operands(id));
-    }
-    true
+    let bends = |id: &Id| matches!(g.node(*id), Node::Call(..) | Node::Select(_));
+    !moving(id, g).iter().any(bends)
 }
 
 /// Whether `id` is identically zero at q̇ = 0.
 fn vanishes_at_rest(id: Id, g: &mut Graph) -> bool {
-    let rest = g.at_rest(id);
-    g.is_zero(rest)
+    let rest = g.rewritten(&moving(id, g), |g, id, rest| match *g.node(id) {
+        Node::Symbol(Symbol::Velocity(_)) => Some(g.zero()),
+        Node::Held(inner) => Some(rest[&inner]),
+        _ => None,
+    });
+    g.is_zero(rest.get(&id).copied().unwrap_or(id))
+}
+
+/// What velocities are in, of all that `id` is made of, operands before users.
+fn moving(id: Id, g: &Graph) -> Vec<Id> {
+    let (mut found, mut stack) = (BTreeSet::new(), vec![id]);
+    while let Some(id) = stack.pop() {
+        if g.uses(id).velocity && found.insert(id) {
+            stack.extend(g.operands(id));
+        }
+    }
+    found.into_iter().collect()
 }

@@ -43,7 +43,8 @@ pub(crate) fn hold(
     let mut held = dynamics.clone();
     let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
     let turns = |id: &Id| branches(g.node(*id)).is_some() || !lengths_below(*id, g).is_empty();
-    if !g.reachable(&roots).iter().any(turns) {
+    let order = g.reachable(&roots);
+    if !order.iter().any(turns) {
         return (held, Vec::new());
     }
     let mut switches = Found::default();
@@ -65,16 +66,12 @@ pub(crate) fn hold(
     let mut pass = Pass {
         numbers,
         branches: Map::default(),
-        known: Map::default(),
     };
-    for id in g.reachable(&roots) {
-        let new = pass.rewrite(id, g);
-        pass.known.insert(id, new);
-    }
+    let known = g.rewritten(&order, |g, id, known| pass.rewrite(id, known, g));
     for id in held.equations_mut() {
-        *id = pass.known[id];
+        *id = known[id];
     }
-    system.carry_names(&pass.known);
+    system.carry_names(&known);
     let switches = list.into_iter().chain(lengths.list).collect();
     (held, switches)
 }
@@ -127,30 +124,17 @@ fn lengths_below(id: Id, g: &Graph) -> Vec<Id> {
 /// Everything that M, Q, c, A and b consist of, with the words for it.
 fn terms(d: &Dynamics, names: &[String]) -> Vec<(String, Id)> {
     let n = d.force.len();
-    let mut out = Vec::new();
+    let force = (0..).zip(&d.force).map(|(i, id)| ("force on", i, id));
+    let nonideal = (0..).zip(&d.nonideal);
+    let nonideal = nonideal.map(|(i, id)| ("non-ideal force on", i, id));
+    let mass = d.mass.iter().map(|((i, _), id)| ("mass on", *i, id));
+    let rhs = (n..).zip(&d.rhs).map(|(row, id)| ("constraint", row, id));
+    let jacobian = d.jacobian.iter();
+    let jacobian = jacobian.map(|((row, _), id)| ("constraint", n + row, id));
+    let all = force.chain(nonideal).chain(mass).chain(rhs).chain(jacobian);
+    let named = all.map(|(what, at, id)| (format!("{what} `{}`", names[at]), *id));
     let mut seen = HashSet::new();
-    let mut enter = |what: &str, position: usize, id: Id| {
-        let term = format!("{what} `{}`", names[position]);
-        if seen.insert((term.clone(), id)) {
-            out.push((term, id));
-        }
-    };
-    for (i, id) in d.force.iter().enumerate() {
-        enter("force on", i, *id);
-    }
-    for (i, id) in d.nonideal.iter().enumerate() {
-        enter("non-ideal force on", i, *id);
-    }
-    for ((i, _), id) in &d.mass {
-        enter("mass on", *i, *id);
-    }
-    for (row, id) in d.rhs.iter().enumerate() {
-        enter("constraint", n + row, *id);
-    }
-    for ((row, _), id) in &d.jacobian {
-        enter("constraint", n + row, *id);
-    }
-    out
+    named.filter(|term| seen.insert(term.clone())).collect()
 }
 
 /// What is compared where a node has branches: a number with zero, or with another one.
@@ -196,60 +180,53 @@ struct Pass {
     numbers: Map<Id, usize>,
     /// What stands for g in decisions: the branch where one is held.
     branches: Map<Id, Id>,
-    /// New node of each old one.
-    known: Map<Id, Id>,
 }
 
 impl Pass {
-    fn rewrite(&mut self, id: Id, g: &mut Graph) -> Id {
+    /// What becomes of a node with branches, where its operands are `known`; nothing of others.
+    fn rewrite(&mut self, id: Id, known: &Map<Id, Id>, g: &mut Graph) -> Option<Id> {
         let decision = decision(id, g).filter(|d| self.numbers.contains_key(&d.function));
-        let Some(Decision { function, sign }) = decision else {
-            let kept = |operand: &Id| self.known[operand] == *operand;
-            return match g.operands(id).iter().all(kept) {
-                true => id,
-                false => g.with_operands(id, |_, operand| self.known[&operand]),
-            };
-        };
-        let branch = self.branch(function, g);
+        let Decision { function, sign } = decision?;
+        let branch = self.branch(function, known, g);
         let zero = g.zero();
         // u ≤ 0 where low ≤ high, for u = sign · g.
         let (low, high) = match sign > 0.0 {
             true => (branch, zero),
             false => (zero, branch),
         };
-        match g.node(id).clone() {
+        Some(match g.node(id).clone() {
             Node::Call(Func::Sign, _) => {
                 let value = g.call1(Func::Sign, branch);
                 g.scale(sign, value)
             }
             Node::Call(Func::Abs, args) => {
-                let u = self.known[&args[0]];
+                let u = known[&args[0]];
                 let negative = g.neg(u);
                 g.select(high, low, u, negative)
             }
             Node::Call(func, args) => {
-                let (a, b) = (self.known[&args[0]], self.known[&args[1]]);
+                let (a, b) = (known[&args[0]], known[&args[1]]);
                 match func {
                     Func::Min => g.select(low, high, a, b),
                     _ => g.select(low, high, b, a),
                 }
             }
             Node::Select([.., then, otherwise]) => {
-                let (then, otherwise) = (self.known[&then], self.known[&otherwise]);
+                let (then, otherwise) = (known[&then], known[&otherwise]);
                 g.select(low, high, then, otherwise)
             }
             _ => id,
-        }
+        })
     }
 
-    fn branch(&mut self, function: Id, g: &mut Graph) -> Id {
+    fn branch(&mut self, function: Id, known: &Map<Id, Id>, g: &mut Graph) -> Id {
         if let Some(branch) = self.branches.get(&function) {
             return *branch;
         }
         // A difference a − b may be no part of the equations, but what it consists of is.
-        let value = match self.known.get(&function) {
+        let value = match known.get(&function) {
             Some(value) => *value,
-            None => g.with_operands(function, |_, operand| self.known[&operand]),
+            None => g.with_operands(function, |_, operand| known[&operand]),
         };
         let held = g.symbol(Symbol::Branch(self.numbers[&function]));
         let branch = g.call2(Func::Branch, value, held);

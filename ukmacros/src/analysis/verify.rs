@@ -6,9 +6,8 @@
 //!   δᵀ (d/dt ∂T/∂q̇ − ∂T/∂q), which must be δᵀ (M q̈ − Q) with Q without the declared forces and −∂V/∂q.
 
 use super::dynamics::Dynamics;
-use super::probe::{Random, Shake};
-use crate::expr::{Graph, Id, Jet, Kind, Node, Point, Symbol, System, eval_shaken};
-use std::cell::RefCell;
+use super::probe::{Probe, Random, Shake};
+use crate::expr::{Graph, Id, Jet, Kind, Node, Symbol, System, eval_shaken};
 use std::collections::HashSet;
 
 /// Relative difference that rounding can explain at arguments of order one; a wrong derivative is off by far more.
@@ -19,32 +18,25 @@ pub(crate) fn verify(system: &System, dynamics: &Dynamics, n: usize) -> Vec<Stri
     let mut suspects: Option<HashSet<String>> = None;
     for seed in 1..=3 {
         let mut random = Random::new(seed);
+        let at = Probe::positive(&system.defaults, n, 0, &mut random);
         let mut draw = || -> Vec<f64> { (0..n).map(|_| random.positive()).collect() };
-        let motion = Motion {
-            params: &system.defaults,
-            q: draw(),
-            v: draw(),
-            a: draw(),
-            t: 0.7,
-        };
+        let motion = Motion { at, a: draw() };
         let direction = draw();
         let compare = |shake: &mut Shake| {
             let mut pairs = motion.disagreements(system, dynamics, shake);
             pairs.extend(motion.lagrange(&direction, system, dynamics, shake));
             pairs
         };
-        let pairs = RefCell::new(Vec::new());
+        let mut pairs = Vec::new();
         let bounds = Shake::bounds(|shake| {
             let now = compare(shake);
             let values = now.iter().flat_map(|pair| [pair.found, pair.expected]);
             let values = values.collect();
-            let mut first = pairs.borrow_mut();
-            if first.is_empty() {
-                *first = now;
+            if pairs.is_empty() {
+                pairs = now;
             }
             values
         });
-        let pairs = pairs.into_inner();
         let bounds = bounds.chunks_exact(2).map(|of| of[0].1 + of[1].1);
         let wrong = pairs.into_iter().zip(bounds);
         let wrong = wrong.filter(|(pair, rounding)| !pair.agrees(*rounding));
@@ -101,25 +93,11 @@ struct Path<'a> {
 
 /// A state with its q̈.
 struct Motion<'a> {
-    params: &'a [f64],
-    q: Vec<f64>,
-    v: Vec<f64>,
+    at: Probe<'a>,
     a: Vec<f64>,
-    t: f64,
 }
 
 impl Motion<'_> {
-    fn point(&self) -> Point<'_> {
-        Point {
-            params: self.params,
-            q: &self.q,
-            v: &self.v,
-            t: self.t,
-            residual: &[],
-            prepared: &[],
-        }
-    }
-
     fn disagreements(
         &self,
         system: &System,
@@ -127,7 +105,7 @@ impl Motion<'_> {
         shake: &mut Shake,
     ) -> Vec<Compared> {
         let g = &system.graph;
-        let point = self.point();
+        let point = self.at.point();
         let mut eval = |ids: &[Id]| eval_shaken(g, ids, &point, &mut |x| shake.change(x));
         let places = dynamics.jacobian.keys();
         let entries: Vec<Id> = dynamics.jacobian.values().copied().collect();
@@ -161,10 +139,10 @@ impl Motion<'_> {
 
     /// q + v s + a s²/2 with velocity v + a s, at time t + s.
     fn parabola(&self) -> Path<'_> {
-        let of_q = self.q.iter().zip(&self.v).zip(&self.a);
+        let of_q = self.at.q.iter().zip(&self.at.v).zip(&self.a);
         Path {
             q: of_q.map(|((q, v), a)| Jet(*q, *v, *a)).collect(),
-            ..self.line(&self.v, &self.a, 1.0)
+            ..self.line(&self.at.v, &self.a, 1.0)
         }
     }
 
@@ -173,11 +151,12 @@ impl Motion<'_> {
         let straight = |x: &[f64], d: &[f64]| -> Vec<Jet> {
             x.iter().zip(d).map(|(x, d)| Jet(*x, *d, 0.0)).collect()
         };
+        let here = self.at.point();
         Path {
-            params: self.params,
-            q: straight(&self.q, a),
-            v: straight(&self.v, b),
-            t: Jet(self.t, c, 0.0),
+            params: here.params,
+            q: straight(here.q, a),
+            v: straight(here.v, b),
+            t: Jet(here.t, c, 0.0),
         }
     }
 
@@ -191,9 +170,9 @@ impl Motion<'_> {
     ) -> Vec<Compared> {
         let mut pairs = Vec::new();
         let g = &system.graph;
-        let n = self.q.len();
+        let n = self.a.len();
         let still = vec![0.0; n];
-        let point = self.point();
+        let point = self.at.point();
         let along = |x: &[f64]| -> f64 { x.iter().zip(direction).map(|(x, d)| x * d).sum() };
         let eval =
             |ids: &[Id], shake: &mut Shake| eval_shaken(g, ids, &point, &mut |x| shake.change(x));
@@ -228,7 +207,8 @@ impl Motion<'_> {
             pairs.push(Compared::new("M", twice, bend, twice.abs() + 1.0));
             // d/dt (δ · ∂T/∂q̇) is a mixed second derivative, by polarisation.
             let both: Vec<f64> = self.a.iter().zip(direction).map(|(a, d)| a + d).collect();
-            let (sum, time) = (t(&self.v, &both, 1.0).2, t(&self.v, &self.a, 1.0).2);
+            let v = &self.at.v;
+            let (sum, time) = (t(v, &both, 1.0).2, t(v, &self.a, 1.0).2);
             let gradient = t(direction, &still, 0.0).1;
             let rate = 0.5 * (sum - time - bend);
             expected += momentum - (rate - gradient);

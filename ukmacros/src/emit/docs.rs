@@ -115,34 +115,32 @@ fn computed(analysis: &Analysis, system: &System, model: &Model) -> String {
             );
             let n = model.coord_elements.len();
             for pivot in &solve.pivots {
-                if let Pivoting::Rotation(Rotation {
-                    coordinates: [i, j],
-                    constraint: row,
-                }) = *pivot
-                {
-                    let _ = writeln!(
+                let _ = match *pivot {
+                    Pivoting::Single(_) => Ok(()),
+                    Pivoting::Rotation(Rotation {
+                        coordinates: [i, j],
+                        constraint: row,
+                    }) => writeln!(
                         out,
                         "`{}` and `{}` are solved for along what `{}` leaves free of them.",
                         coord(i),
                         coord(j),
                         constraint(row - n)
-                    );
-                }
-                let Pivoting::Pair(pair) = pivot else {
-                    continue;
+                    ),
+                    Pivoting::Pair(pair) => {
+                        let why = match (pair.massive, pair.alone) {
+                            (false, _) => "replaces the inertia it lacks",
+                            (true, true) => "prescribes it alone",
+                            (true, false) => "gives it by the others",
+                        };
+                        writeln!(
+                            out,
+                            "Coordinate `{}` is not solved for, since `{}` {why}.",
+                            coord(pair.coordinate),
+                            constraint(pair.constraint - n)
+                        )
+                    }
                 };
-                let (i, row) = (pair.coordinate, pair.constraint - n);
-                let why = match (pair.massive, pair.alone) {
-                    (false, _) => "replaces the inertia it lacks",
-                    (true, true) => "prescribes it alone",
-                    (true, false) => "gives it by the others",
-                };
-                let _ = writeln!(
-                    out,
-                    "Coordinate `{}` is not solved for, since `{}` {why}.",
-                    coord(i),
-                    constraint(row)
-                );
             }
             if !solve.velocities.is_empty() {
                 let _ = writeln!(

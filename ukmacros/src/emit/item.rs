@@ -18,6 +18,14 @@ pub(super) fn doc(text: &str) -> TokenStream {
     lines.collect()
 }
 
+/// What documents something, or else `other`.
+fn documented(docs: &[String], other: String) -> String {
+    match docs {
+        [] => other,
+        docs => docs.join("\n"),
+    }
+}
+
 /// What is said of a number, with its unit.
 fn in_unit(text: String, unit: Option<&String>) -> String {
     match unit {
@@ -29,21 +37,13 @@ fn in_unit(text: String, unit: Option<&String>) -> String {
 /// The struct of parameters, and its default.
 pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &str) -> TokenStream {
     let (vis, name, lints) = (&decl.vis, &decl.name, &decl.lints);
-    let own = if decl.docs.is_empty() {
-        format!("Mechanism `{name}`.")
-    } else {
-        decl.docs.join("\n")
-    };
+    let own = documented(&decl.docs, format!("Mechanism `{name}`."));
     let docs = doc(&format!("{own}\n\n{extra}"));
     let mut fields = TokenStream::new();
     let mut values = TokenStream::new();
     for family in &model.params {
         let field = &family.name;
-        let text = if family.docs.is_empty() {
-            format!("Parameter `{field}`.")
-        } else {
-            family.docs.join("\n")
-        };
+        let text = documented(&family.docs, format!("Parameter `{field}`."));
         let unit = |i: &usize| system.units.get(*i).filter(|unit| !unit.is_empty());
         let docs = doc(&in_unit(text, family.members.iter().find_map(unit)));
         let number = |i: &usize| float(system.defaults.get(*i).copied().unwrap_or(f64::NAN));

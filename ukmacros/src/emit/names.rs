@@ -182,17 +182,8 @@ impl<'a> Namer<'a> {
                 format!("{}_{word}_{}", self.atom(a.1)?, self.atom(b.1)?)
             }
             Node::Product(factors) => {
-                let mut parts = Vec::new();
-                for (base, exponent) in factors {
-                    let base = self.atom(*base)?;
-                    parts.push(match exponent {
-                        1 => base,
-                        2 => format!("sq_{base}"),
-                        -1 => format!("per_{base}"),
-                        _ => return None,
-                    });
-                }
-                parts.join("_")
+                let parts = factors.iter().map(|(base, e)| power(self.atom(*base)?, *e));
+                parts.collect::<Option<Vec<String>>>()?.join("_")
             }
             Node::Scale(c, inner) if c.get() == 2.0 => format!("twice_{}", self.atom(*inner)?),
             _ => return None,
@@ -215,17 +206,10 @@ impl<'a> Namer<'a> {
                 format!("{times}_{}", self.describe(*inner)?)
             }
             Node::Product(factors) => {
-                let part = |(base, exponent): &(Id, i32)| {
-                    let base = self.describe(*base)?;
-                    match exponent {
-                        1 => Some(base),
-                        2 => Some(format!("sq_{base}")),
-                        -1 => Some(format!("per_{base}")),
-                        _ => None,
-                    }
-                };
-                let parts: Option<Vec<String>> = factors.iter().map(part).collect();
-                parts?.join("_")
+                let parts = factors
+                    .iter()
+                    .map(|(base, e)| power(self.describe(*base)?, *e));
+                parts.collect::<Option<Vec<String>>>()?.join("_")
             }
             Node::Sum(c, terms) if c.get() == 0.0 && terms.len() <= 3 => {
                 let parts: Option<Vec<String>> =
@@ -245,6 +229,16 @@ impl<'a> Namer<'a> {
             Node::Symbol(s) => Some(self.symbols[s].clone()),
             _ => self.variables.get(&id).cloned(),
         }
+    }
+}
+
+/// The name of a power of `base`, if it has one.
+fn power(base: String, exponent: i32) -> Option<String> {
+    match exponent {
+        1 => Some(base),
+        2 => Some(format!("sq_{base}")),
+        -1 => Some(format!("per_{base}")),
+        _ => None,
     }
 }
 

@@ -177,31 +177,29 @@ enum Seed {
 }
 
 impl Derivative {
-    /// Along a direction: of each of these symbols the given one.
-    pub(crate) fn along(direction: Vec<(Id, Id)>) -> Self {
+    fn new(seed: Seed) -> Self {
         Derivative {
-            seed: Seed::Entered,
-            known: direction.into_iter().collect(),
+            seed,
+            known: Map::default(),
             sums: Rc::default(),
         }
+    }
+
+    /// Along a direction: of each of these symbols the given one.
+    pub(crate) fn along(direction: Vec<(Id, Id)>) -> Self {
+        let mut derivative = Derivative::new(Seed::Entered);
+        derivative.known.extend(direction);
+        derivative
     }
 
     /// ∂/∂symbol.
     pub(crate) fn partial(symbol: Symbol) -> Self {
-        Derivative {
-            seed: Seed::Partial(symbol),
-            known: Map::default(),
-            sums: Rc::default(),
-        }
+        Derivative::new(Seed::Partial(symbol))
     }
 
     /// d/dt at q̈ = 0 (q → q̇, q̇ → 0, t → 1). Of φ(q, t) this is φ̇ itself; of φ̇ it is φ̈ without A q̈.
     pub(crate) fn total() -> Self {
-        Derivative {
-            seed: Seed::Total,
-            known: Map::default(),
-            sums: Rc::default(),
-        }
+        Derivative::new(Seed::Total)
     }
 
     fn of_symbol(&self, symbol: Symbol, g: &mut Graph) -> Id {

@@ -27,6 +27,15 @@ pub(crate) fn is_power_of_two(x: f64) -> bool {
     x.is_normal() && x.to_bits().trailing_zeros() >= 52 && x > 0.0
 }
 
+/// The power of a base that is in both of these powers of it, which are of one sign then.
+pub(crate) fn common_power(a: i32, b: i32) -> Option<i32> {
+    match (a > 0, b > 0) {
+        (true, true) => Some(a.min(b)),
+        (false, false) => Some(a.max(b)),
+        _ => None,
+    }
+}
+
 impl Graph {
     pub(crate) fn constant(&mut self, x: f64) -> Id {
         self.intern(Node::Const(Num::new(x)))
@@ -170,17 +179,10 @@ impl Graph {
         for (_, part) in &parts[1..] {
             let factors = factors_of(self, *part);
             common.retain_mut(|(base, e)| {
-                let Some((_, other)) = factors.iter().find(|(b, _)| b == base) else {
-                    return false;
-                };
-                // The power that both have: only of one sign.
-                let alike = (*e > 0) == (*other > 0);
-                *e = if *e > 0 {
-                    (*e).min(*other)
-                } else {
-                    (*e).max(*other)
-                };
-                alike
+                let other = factors.iter().find(|(b, _)| b == base);
+                let both = other.and_then(|(_, other)| common_power(*e, *other));
+                *e = both.unwrap_or_default();
+                both.is_some()
             });
         }
         common.retain(|(base, _)| wanted(self, *base));
@@ -454,6 +456,27 @@ impl Graph {
                 self.select(a, b, then, otherwise)
             }
         }
+    }
+
+    /// The new nodes of those in `order`, operands before users: what `changed` gives for a node, from those before it, or else the node with
+    /// these in their places.
+    pub(crate) fn rewritten(
+        &mut self,
+        order: &[Id],
+        mut changed: impl FnMut(&mut Self, Id, &Map<Id, Id>) -> Option<Id>,
+    ) -> Map<Id, Id> {
+        let mut new: Map<Id, Id> = Map::default();
+        for id in order {
+            let of = |operand: Id| new.get(&operand).copied().unwrap_or(operand);
+            let kept = |operand: &Id| of(*operand) == *operand;
+            let now = match changed(self, *id, &new) {
+                Some(now) => now,
+                None if self.operands(*id).iter().all(kept) => *id,
+                None => self.with_operands(*id, |_, operand| of(operand)),
+            };
+            new.insert(*id, now);
+        }
+        new
     }
 
     /// `id`, which was held, in another form: held as it is, with its coefficient.

@@ -9,12 +9,11 @@ mod functions;
 mod graph;
 mod jet;
 mod lower;
-mod rest;
 
 pub(crate) use diff::{Adjoint, Derivative, Gradient};
 pub(crate) use display::Printer;
 pub(crate) use eval::{Point, Sweep, eval, eval_shaken};
-pub(crate) use fold::is_power_of_two;
+pub(crate) use fold::{common_power, is_power_of_two};
 pub(crate) use formula::{Block, Formula, Letters, Name, families};
 pub(crate) use functions::{Cost, Func};
 pub(crate) use graph::{Graph, Id, Map, Node, Num, Set, Symbol};

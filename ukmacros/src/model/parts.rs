@@ -1,10 +1,13 @@
 //! Declarations within declarations: what stands in a part is taken into the whole, under names of its own, once for each of its members.
 
-use super::renaming::{Renaming, bound, section, uses};
+use super::renaming::{Renaming, bound, uses};
 use super::resolve::bare;
 use super::types::{Model, Variable, every, indexed};
 use crate::diag::{Diagnostics, suggest};
-use crate::parse::{Applied, Block, Declaration, Given, Key, Let, LetValue, PartUse, Table, parse};
+use crate::parse::{
+    Applied, Block, Declaration, Entry, Equation, Given, Key, Let, LetValue, PartUse, Table, parse,
+};
+use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -79,7 +82,8 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         merge(&mut inner, &Table::parse(known.parts.clone()), &inside);
         whole.decl.merged.faulty |= inner.merged.faulty;
         let (name, before) = (&member.part.name, diag.len());
-        if let (None, Some(_)) = (&whole.decl.gravity, &inner.gravity) {
+        let weighs = |decl: &Declaration| decl.sections.contains_key("gravity");
+        if weighs(&inner) && !weighs(whole.decl) {
             let message = format!(
                 "`{name}` has `gravity`, and this declaration, of which it is a part, has none; give it, for all bodies"
             );
@@ -201,7 +205,7 @@ impl Member {
         let mut fixed: HashSet<String> = given.map(|(name, _)| name.to_string()).collect();
         for block in &inner.params {
             block.each(&mut |param| {
-                if uses(&param.default, &fixed) {
+                if uses(&param.value, &fixed) {
                     fixed.insert(param.key.name.to_string());
                 }
             });
@@ -220,27 +224,23 @@ impl Whole<'_> {
         let base = member.part.key.name.to_string();
         let path: String = member.part.path.to_string().split_whitespace().collect();
         let families = self.decl.merged.families.entry(base.clone()).or_default();
-        let reason = match kinds.get(&base) {
-            Some(kind) if *kind != path => Some(format!(
-                "`{base}` is declared as `{kind}` and as `{path}`; rename one"
-            )),
-            Some(_) if families.contains(&member.indices) => Some(format!(
-                "`{}` is declared twice; names must be unique",
-                indexed(&base, &member.indices)
-            )),
-            Some(_)
-                if families
-                    .iter()
-                    .any(|other| other.len() != member.indices.len()) =>
-            {
-                Some(format!(
-                    "`{base}` is declared with different numbers of indices; rename one"
-                ))
+        let other_length = |other: &Vec<i64>| other.len() != member.indices.len();
+        match kinds.get(&base) {
+            Some(kind) if *kind != path => {
+                return Err(format!(
+                    "`{base}` is declared as `{kind}` and as `{path}`; rename one"
+                ));
             }
-            _ => None,
-        };
-        if let Some(reason) = reason {
-            return Err(reason);
+            Some(_) if families.contains(&member.indices) => {
+                let name = indexed(&base, &member.indices);
+                return Err(format!("`{name}` is declared twice; names must be unique"));
+            }
+            Some(_) if families.iter().any(other_length) => {
+                return Err(format!(
+                    "`{base}` is declared with different numbers of indices; rename one"
+                ));
+            }
+            _ => {}
         }
         families.push(member.indices.clone());
         kinds.insert(base, path);
@@ -252,7 +252,6 @@ impl Whole<'_> {
         self.decl.units |= inner.units;
         let fixed = member.fixed(&inner);
         let names = self.names(&inner, member, &fixed);
-        let span = member.part.key.name.span();
         let mut constraints = Vec::new();
         self::names(&inner.holonomic, |c| &c.key, &mut constraints);
         self::names(&inner.nonholonomic, |c| &c.key, &mut constraints);
@@ -261,12 +260,17 @@ impl Whole<'_> {
             let full = format!("{prefix}_{name}");
             (name, full)
         });
-        let constraints = constraints.collect();
-        let parts = inner.merged.families.keys().cloned().collect();
-        let mut renaming = Renaming::new(names, constraints, parts, self.own.clone(), span);
+        let mut renaming = Renaming {
+            names,
+            constraints: constraints.collect(),
+            parts: inner.merged.families.keys().cloned().collect(),
+            hidden: Vec::new(),
+            own: self.own.clone(),
+            clash: None,
+            span: member.part.key.name.span(),
+        };
         self.values(&mut inner, member, &fixed, &mut renaming);
-        self.bodies(&mut inner, &mut renaming);
-        self.equations(inner, &prefix, &mut renaming);
+        self.sections(inner, &prefix, &mut renaming);
         if let Some(name) = &renaming.clash {
             let kind = &member.part.name;
             let message = format!(
@@ -357,10 +361,7 @@ impl Whole<'_> {
                 Block::One(param) => param,
                 block => {
                     let mut blocks = vec![block];
-                    r.blocks(&mut blocks, &mut |r, param| {
-                        r.key(&mut param.key);
-                        r.expr(&mut param.default);
-                    });
+                    r.blocks(&mut blocks, &mut Renaming::entry);
                     let mut first = String::new();
                     blocks[0].each(&mut |param| first = param.key.name.to_string());
                     if self.common.insert(first) {
@@ -370,17 +371,16 @@ impl Whole<'_> {
                 }
             };
             let name = param.key.name.to_string();
-            r.key(&mut param.key);
-            r.expr(&mut param.default);
+            r.entry(&mut param);
             if fixed.contains(&name) {
                 let given = member.part.given.iter().find(|(n, _)| *n == name);
-                let value = given.map_or(&param.default, |(_, value)| value).clone();
+                let value = given.map_or(&param.value, |(_, value)| value).clone();
                 let sizes = std::mem::take(&mut param.key.indices);
                 let binding = Let {
                     key: param.key,
                     given: Some(Given {
                         sizes,
-                        default: param.default,
+                        default: param.value,
                     }),
                     value: LetValue::Value(value),
                 };
@@ -392,9 +392,17 @@ impl Whole<'_> {
         }
     }
 
-    /// Takes what is declared by `let`, coordinates, bodies and joints.
-    fn bodies(&mut self, inner: &mut Declaration, r: &mut Renaming) {
-        r.blocks(&mut inner.lets, &mut |r, binding| {
+    /// Takes all other sections.
+    fn sections(&mut self, inner: Declaration, prefix: &str, r: &mut Renaming) {
+        let whole = &mut *self.decl;
+        for (name, keyword) in inner.sections {
+            // What is drawn is the whole.
+            if name != "draw" {
+                let keyword = Ident::new(&keyword.to_string(), r.span);
+                whole.sections.entry(name).or_insert(keyword);
+            }
+        }
+        take(&mut self.lets, inner.lets, r, |r, binding| {
             r.key(&mut binding.key);
             match &mut binding.value {
                 LetValue::Value(value) => r.expr(value),
@@ -405,78 +413,59 @@ impl Whole<'_> {
                 r.expr(default);
             }
         });
-        self.lets.append(&mut inner.lets);
-        r.blocks(&mut inner.coords, &mut |r, coord| r.key(&mut coord.key));
-        self.decl.coords.append(&mut inner.coords);
-        r.blocks(&mut inner.bodies, &mut |r, body| {
+        take(&mut whole.coords, inner.coords, r, |r, coord| {
+            r.key(&mut coord.key);
+        });
+        take(&mut whole.bodies, inner.bodies, r, |r, body| {
             r.key(&mut body.key);
             let consists = [&mut body.mass, &mut body.inertia, &mut body.centre];
             consists.into_iter().flatten().for_each(|e| r.expr(e));
         });
-        self.decl.bodies.append(&mut inner.bodies);
-        r.blocks(&mut inner.tree, &mut |r, joint| {
-            r.key(&mut joint.key);
-            r.expr(&mut joint.value);
-        });
-        self.decl.tree.append(&mut inner.tree);
-    }
-
-    /// Takes all other sections.
-    fn equations(&mut self, mut inner: Declaration, prefix: &str, r: &mut Renaming) {
-        let pairs = [
-            (&mut self.decl.kinetic, inner.kinetic),
-            (&mut self.decl.potential, inner.potential),
-            (&mut self.decl.dissipation, inner.dissipation),
-        ];
-        for (to, from) in pairs {
-            section(to, from, r, &mut |r, e| r.expr(e));
-        }
-        section(&mut self.decl.mass, inner.mass, r, &mut |r, entry| {
+        take(&mut whole.tree, inner.tree, r, Renaming::entry);
+        take(&mut whole.kinetic, inner.kinetic, r, Renaming::expr);
+        take(&mut whole.potential, inner.potential, r, Renaming::expr);
+        take(&mut whole.dissipation, inner.dissipation, r, Renaming::expr);
+        take(&mut whole.mass, inner.mass, r, |r, entry| {
             r.key(&mut entry.key);
             entry.other.iter_mut().for_each(|key| r.key(key));
             r.expr(&mut entry.value);
         });
-        section(
-            &mut self.decl.nonideal,
+        take(
+            &mut whole.nonideal,
             inner.nonideal,
             r,
-            &mut |r, applied| match applied {
-                Applied::To(entry) => {
-                    r.key(&mut entry.key);
-                    r.expr(&mut entry.value);
-                }
+            |r, applied| match applied {
+                Applied::To(entry) => r.entry(entry),
                 Applied::By(e) => r.expr(e),
             },
         );
-        r.blocks(&mut inner.force, &mut |r, entry| {
-            r.key(&mut entry.key);
-            r.expr(&mut entry.value);
-        });
-        self.decl.force.extend(inner.force);
-        r.blocks(&mut inner.forces, &mut |r, e| r.expr(e));
-        self.decl.forces.extend(inner.forces);
-        for (to, mut from) in [
-            (&mut self.decl.holonomic, inner.holonomic),
-            (&mut self.decl.nonholonomic, inner.nonholonomic),
-        ] {
-            r.blocks(&mut from, &mut |r, equation| {
-                r.result(&mut equation.key, prefix);
-                r.expr(&mut equation.lhs);
-                equation.rhs.iter_mut().for_each(|e| r.expr(e));
-            });
-            to.extend(from);
-        }
-        for (to, mut from) in [
-            (&mut self.decl.outputs, inner.outputs),
-            (&mut self.decl.integrals, inner.integrals),
-        ] {
-            r.blocks(&mut from, &mut |r, reported| {
-                r.result(&mut reported.key, prefix);
-                r.expr(&mut reported.value);
-            });
-            to.extend(from);
-        }
+        take(&mut whole.force, inner.force, r, Renaming::entry);
+        take(&mut whole.forces, inner.forces, r, Renaming::expr);
+        let equation = |r: &mut Renaming, equation: &mut Equation| {
+            r.result(&mut equation.key, prefix);
+            r.expr(&mut equation.lhs);
+            equation.rhs.iter_mut().for_each(|e| r.expr(e));
+        };
+        take(&mut whole.holonomic, inner.holonomic, r, equation);
+        take(&mut whole.nonholonomic, inner.nonholonomic, r, equation);
+        let reported = |r: &mut Renaming, reported: &mut Entry| {
+            r.result(&mut reported.key, prefix);
+            r.expr(&mut reported.value);
+        };
+        take(&mut whole.outputs, inner.outputs, r, reported);
+        take(&mut whole.integrals, inner.integrals, r, reported);
     }
+}
+
+/// Adds the entries of a part's section to those of the whole, each as it is there.
+fn take<T>(
+    to: &mut Vec<Block<T>>,
+    mut from: Vec<Block<T>>,
+    r: &mut Renaming,
+    mut each: impl FnMut(&mut Renaming, &mut T),
+) {
+    r.blocks(&mut from, &mut each);
+    to.extend(from);
 }
 
 /// Whether what is given to a part are parameters of it; reports what is not.

@@ -2,29 +2,10 @@
 
 use super::LOADS;
 use super::types::Variable;
-use crate::parse::{Block, Expr, ExprKind, Function, Key, Let, Range, Section};
+use crate::parse::{Block, Entry, Expr, ExprKind, Function, Key, Let, Range};
 use proc_macro2::{Ident, Span};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
-
-/// Adds the entries of a part's section to the section of the whole.
-pub(super) fn section<T>(
-    to: &mut Option<Section<T>>,
-    from: Option<Section<T>>,
-    r: &mut Renaming,
-    each: &mut dyn FnMut(&mut Renaming, &mut T),
-) {
-    let Some(mut from) = from else {
-        return;
-    };
-    r.blocks(&mut from.blocks, each);
-    let keyword = Ident::new(&from.keyword.to_string(), r.span);
-    let section = to.get_or_insert(Section {
-        keyword,
-        blocks: Vec::new(),
-    });
-    section.blocks.extend(from.blocks);
-}
 
 /// `binding` where the loop variables have these values.
 pub(super) fn bound(binding: Let, variables: &[Variable], span: Span) -> Block<Let> {
@@ -61,39 +42,21 @@ pub(super) fn uses(e: &Expr, names: &HashSet<String>) -> bool {
 
 /// Names of a part that become those of the whole, at the place where the part is declared.
 pub(super) struct Renaming {
-    names: HashMap<String, String>,
+    pub(super) names: HashMap<String, String>,
     /// Those of constraints, which [`LOADS`] alone use.
-    constraints: HashMap<String, String>,
+    pub(super) constraints: HashMap<String, String>,
     /// Names of parts.
-    parts: HashSet<String>,
+    pub(super) parts: HashSet<String>,
     /// Arguments of the functions around.
-    hidden: Vec<String>,
+    pub(super) hidden: Vec<String>,
     /// What the whole declares by `let`, and the ground if it declares one: names of the vocabulary that the part means otherwise.
-    own: Rc<HashSet<String>>,
+    pub(super) own: Rc<HashSet<String>>,
     /// One of these that the part uses.
     pub(super) clash: Option<String>,
     pub(super) span: Span,
 }
 
 impl Renaming {
-    pub(super) fn new(
-        names: HashMap<String, String>,
-        constraints: HashMap<String, String>,
-        parts: HashSet<String>,
-        own: Rc<HashSet<String>>,
-        span: Span,
-    ) -> Self {
-        Renaming {
-            names,
-            constraints,
-            parts,
-            hidden: Vec::new(),
-            own,
-            clash: None,
-            span,
-        }
-    }
-
     pub(super) fn name(&mut self, name: &mut Ident) {
         let text = name.to_string();
         let hidden = self.hidden.contains(&text);
@@ -119,6 +82,11 @@ impl Renaming {
             self.exprs(indices);
         }
         key.loc = self.span.into();
+    }
+
+    pub(super) fn entry(&mut self, entry: &mut Entry) {
+        self.key(&mut entry.key);
+        self.expr(&mut entry.value);
     }
 
     /// The name of a constraint or an output.
@@ -162,23 +130,8 @@ impl Renaming {
     pub(super) fn expr(&mut self, e: &mut Expr) {
         e.loc = self.span.into();
         match &mut e.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
             ExprKind::Name(name) => self.name(name),
-            ExprKind::Index(base, indices) => {
-                self.expr(base);
-                self.exprs(indices);
-            }
-            ExprKind::Field(base, name) => {
-                self.expr(base);
-                name.set_span(self.span);
-            }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) | ExprKind::Quantity(inner, _) => {
-                self.expr(inner);
-            }
-            ExprKind::Chain(first, rest) => {
-                self.expr(first);
-                rest.iter_mut().for_each(|(_, operand)| self.expr(operand));
-            }
+            ExprKind::Field(_, name) => name.set_span(self.span),
             ExprKind::Call(name, args) => {
                 if self.of_part(args) {
                     name.set_span(self.span);
@@ -191,17 +144,18 @@ impl Renaming {
                 if LOADS.iter().any(|load| name == load) {
                     args.iter_mut().for_each(|arg| self.constraint(arg));
                 }
-                self.exprs(args);
             }
-            ExprKind::Vector(components) => self.exprs(components),
             ExprKind::Sum { var, range, body } => {
                 self.range(range);
                 var.set_span(self.span);
                 self.hidden.push(var.to_string());
                 self.expr(body);
                 self.hidden.pop();
+                return;
             }
+            _ => {}
         }
+        e.parts_mut().into_iter().for_each(|part| self.expr(part));
     }
 
     pub(super) fn function(&mut self, function: &mut Function) {

@@ -8,8 +8,7 @@ use super::types::{
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key, Measure};
 use proc_macro2::Ident;
-use std::cell::Cell;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use ukunits::Unit;
 
@@ -29,29 +28,10 @@ fn constants(
     diag: &Diagnostics,
 ) -> Model {
     let mut model = Model {
-        integers: BTreeMap::new(),
-        floats: Vec::new(),
-        params: Vec::new(),
-        coords: Vec::new(),
-        bodies: Vec::new(),
-        body_kinds: Vec::new(),
-        body_elements: Vec::new(),
-        joints: Vec::new(),
-        hung: Vec::new(),
-        own: Vec::new(),
-        fields: HashMap::new(),
-        plain: 0,
-        param_elements: Vec::new(),
-        coord_elements: Vec::new(),
-        names: HashMap::new(),
         index_functions: index_functions(decl),
-        repetitions: Cell::new(0),
-        applications: Cell::new(0),
-        too_many: Cell::new(None),
         units: decl.units,
         reserved: functions.chain(RESERVED).collect(),
-        part_families: BTreeMap::new(),
-        shown: BTreeMap::new(),
+        ..Model::default()
     };
     for constant in &decl.consts {
         let name = constant.name.to_string();
@@ -100,17 +80,15 @@ pub(crate) fn resolve(
 ) -> Model {
     let mut model = constants(decl, functions, diag);
     parts(decl, &mut model, diag);
-    members(&decl.params, Kind::Param, &mut model, diag, |param| Said {
-        default: Some(&param.default),
-        ..Said::new(&param.key, &param.docs)
+    members(&decl.params, Kind::Param, &mut model, diag, |param| {
+        (&param.key, &param.docs, Some(&param.value))
     });
-    members(&decl.coords, Kind::Coord, &mut model, diag, |coord| Said {
-        unit: coord.measure.as_ref().and_then(|m| coherent(m, diag)),
-        ..Said::new(&coord.key, &coord.docs)
+    members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
+        (&coord.key, &coord.docs, None)
     });
     let before = diag.len();
     members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
-        Said::new(&body.key, &body.docs)
+        (&body.key, &body.docs, None)
     });
     bodies(decl, &mut model, diag, before);
     if model.coord_elements.is_empty() && diag.is_empty() {
@@ -147,25 +125,6 @@ enum Kind {
     Body,
 }
 
-/// What a declaration says.
-struct Said<'d> {
-    key: &'d Key,
-    docs: &'d Vec<String>,
-    default: Option<&'d Expr>,
-    unit: Option<Unit>,
-}
-
-impl<'d> Said<'d> {
-    fn new(key: &'d Key, docs: &'d Vec<String>) -> Self {
-        Said {
-            key,
-            docs,
-            default: None,
-            unit: None,
-        }
-    }
-}
-
 /// The unit of a coordinate, which equations have in kg, m, s and rad.
 fn coherent(measure: &Measure, diag: &Diagnostics) -> Option<Unit> {
     if !measure.unit.is_coherent() {
@@ -190,24 +149,21 @@ struct Found {
     unit: Option<Unit>,
 }
 
-/// Enters parameters or coordinates: `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i.
+/// Enters parameters, coordinates or bodies: `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i. Of an entry
+/// `said` is its key, what documents it and its default.
 fn members<T>(
     blocks: &[Block<T>],
     kind: Kind,
     model: &mut Model,
     diag: &Diagnostics,
-    said: impl Fn(&T) -> Said<'_>,
+    said: impl Fn(&T) -> (&Key, &Vec<String>, Option<&Expr>),
 ) {
     for block in blocks {
         let mut found = Vec::new();
         let looped = matches!(block, Block::For { .. });
         Scope::new(model).unroll(std::slice::from_ref(block), diag, &mut |item, scope| {
-            let Said {
-                key,
-                docs,
-                default,
-                unit,
-            } = said(item);
+            let (key, docs, default) = said(item);
+            let unit = key.measure.as_ref().and_then(|m| coherent(m, diag));
             let Some(sizes) = sizes(key, looped, scope, diag) else {
                 return;
             };

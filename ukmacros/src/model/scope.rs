@@ -46,25 +46,17 @@ fn depth(
     own: &dyn Fn(&str) -> bool,
     known: &HashMap<String, IndexFunction>,
 ) -> Option<usize> {
-    let deepest = |operands: &mut dyn Iterator<Item = &Expr>, least: usize| {
-        let mut depths = operands.map(|e| depth(e, own, known));
-        depths.try_fold(least, |most, d| Some(most.max(d?)))
+    let least = match &e.kind {
+        ExprKind::Name(name) if !own(&name.to_string()) => return None,
+        ExprKind::Call(name, _) => known.get(&name.to_string())?.depth,
+        ExprKind::Int(_) | ExprKind::Name(_) => 0,
+        ExprKind::Neg(_) | ExprKind::Group(_) | ExprKind::Chain(..) => 0,
+        _ => return None,
     };
-    let inside = match &e.kind {
-        ExprKind::Int(_) => Some(0),
-        ExprKind::Name(name) => own(&name.to_string()).then_some(0),
-        ExprKind::Neg(inner) | ExprKind::Group(inner) => depth(inner, own, known),
-        ExprKind::Chain(first, rest) => {
-            let rest = rest.iter().map(|(_, operand)| operand);
-            deepest(&mut std::iter::once(&**first).chain(rest), 0)
-        }
-        ExprKind::Call(name, args) => {
-            let function = known.get(&name.to_string())?;
-            deepest(&mut args.iter(), function.depth)
-        }
-        _ => None,
-    };
-    inside.map(|inside| inside + 1)
+    let parts = e.parts().into_iter();
+    let mut depths = parts.map(|part| depth(part, own, known));
+    let inside = depths.try_fold(least, |most, depth| Some(most.max(depth?)))?;
+    Some(inside + 1)
 }
 
 /// What a name in a part is called in the whole.
@@ -322,13 +314,7 @@ impl<'m> Scope<'m> {
                     let value = constant.and_then(|c| Some((c.value?, c)));
                     largest = largest.into_iter().chain(value).max_by_key(|(n, _)| *n);
                 }
-                ExprKind::Neg(inner) | ExprKind::Group(inner) => stack.push(inner),
-                ExprKind::Call(_, args) => stack.extend(args),
-                ExprKind::Chain(first, rest) => {
-                    stack.push(first);
-                    stack.extend(rest.iter().map(|(_, operand)| operand));
-                }
-                _ => {}
+                _ => stack.extend(e.parts()),
             }
         }
         let (what, loc) = match largest {

@@ -77,12 +77,6 @@ pub(crate) struct Joint {
     pub(crate) first: usize,
 }
 
-/// What a joint joins.
-enum End {
-    Ground,
-    Body(usize),
-}
-
 /// The joints as declared, with what they join.
 fn declared(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
@@ -102,15 +96,11 @@ fn declared(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Vec<Joint>
             return;
         };
         let ends = (end(&args[0], scope, model, diag), end(&args[1], scope, model, diag));
-        let child = match ends.1 {
-            Some(End::Ground) => {
-                let message = "the second body of a joint of the tree hangs on it, which the ground does not; name the ground first";
-                diag.error(args[1].loc, message);
-                None
-            }
-            Some(End::Body(child)) => Some(child),
-            None => None,
-        };
+        let (parent, child) = (ends.0.flatten(), ends.1.flatten());
+        if ends.1 == Some(None) {
+            let message = "the second body of a joint of the tree hangs on it, which the ground does not; name the ground first";
+            diag.error(args[1].loc, message);
+        }
         let spatial = |body: usize| model.body_kinds[model.body_elements[body].family].spatial;
         let home = child.map_or(kind[0].spatial, spatial);
         let fitting = kind.iter().find(|kind| kind.spatial == home);
@@ -120,10 +110,6 @@ fn declared(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Vec<Joint>
             diag.error(call.span(), message);
         }
         let shown = |end: Option<usize>| end.map_or("ground", |at| &model.body_elements[at].name);
-        let parent = match ends.0 {
-            Some(End::Body(parent)) => Some(parent),
-            _ => None,
-        };
         let apart = parent.is_some_and(|parent| child.is_some_and(|child| spatial(parent) != spatial(child)));
         if apart {
             let names = (shown(parent), shown(child));
@@ -282,8 +268,8 @@ fn listed(spatial: Option<bool>) -> String {
     format!("joints of the tree are `{}`", names.join("`, `"))
 }
 
-/// The body that the point `e`, written `body.at(p)`, belongs to.
-fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option<End> {
+/// The body that the point `e`, written `body.at(p)`, belongs to; nothing inside where that is the ground.
+fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option<Option<usize>> {
     let form = || {
         let message =
             "a joint of the tree names its bodies where it stands: `pin(arm.at(p), hand.at(q))`";
@@ -313,7 +299,7 @@ fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option
     let text = name.to_string();
     let Some(Name::Body(family)) = model.names.get(&text) else {
         if text == "ground" && indices.is_empty() && !model.names.contains_key(&text) {
-            return Some(End::Ground);
+            return Some(None);
         }
         let names = model.bodies.iter().map(|family| family.name.to_string());
         let names: Vec<String> = names.chain(["ground".to_owned()]).collect();
@@ -337,7 +323,7 @@ fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option
         return None;
     }
     match block(&family.shape, &chosen) {
-        Ok(range) => family.members.get(range.start).map(|at| End::Body(*at)),
+        Ok(range) => family.members.get(range.start).map(|at| Some(*at)),
         Err(wrong) => {
             let message = format!(
                 "index {} is out of range: `{text}` has {} members",

@@ -11,6 +11,7 @@ use std::rc::Rc;
 use ukunits::Unit;
 
 /// Names of a declaration, resolved.
+#[derive(Default)]
 pub(crate) struct Model {
     pub(crate) integers: BTreeMap<String, Integer>,
     /// `f64` constants, whose values are lowered later.

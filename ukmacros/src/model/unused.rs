@@ -76,36 +76,30 @@ fn used(decl: &Declaration) -> HashSet<String> {
     for constant in &decl.consts {
         found.expr(&constant.value);
     }
-    found.blocks(&decl.params, |param| {
-        (vec![&param.key], vec![&param.default])
-    });
+    let named = [&decl.params, &decl.tree, &decl.force];
+    for blocks in named.into_iter().chain([&decl.outputs, &decl.integrals]) {
+        found.blocks(blocks, |entry| (vec![&entry.key], vec![&entry.value]));
+    }
     found.blocks(&decl.coords, |coord| (vec![&coord.key], Vec::new()));
     found.blocks(&decl.bodies, |body| {
         let parts = body.mass.iter().chain(&body.inertia).chain(&body.centre);
         (vec![&body.key], parts.collect())
     });
-    found.blocks(&decl.tree, |joint| (vec![&joint.key], vec![&joint.value]));
     found.lets(&decl.lets);
-    if let Some(section) = &decl.mass {
-        found.blocks(&section.blocks, |m| {
-            (
-                std::iter::once(&m.key).chain(&m.other).collect(),
-                vec![&m.value],
-            )
-        });
-    }
-    let energies = decl.kinetic.iter().chain(&decl.potential);
-    let sections = energies.chain(&decl.gravity).chain(&decl.dissipation);
-    for blocks in sections.map(|s| &s.blocks).chain([&decl.forces]) {
+    found.blocks(&decl.mass, |m| {
+        (
+            std::iter::once(&m.key).chain(&m.other).collect(),
+            vec![&m.value],
+        )
+    });
+    let terms = [&decl.gravity, &decl.kinetic, &decl.potential];
+    for blocks in terms.into_iter().chain([&decl.dissipation, &decl.forces]) {
         found.blocks(blocks, |term| (Vec::new(), vec![term]));
     }
-    found.blocks(&decl.force, |entry| (vec![&entry.key], vec![&entry.value]));
-    if let Some(section) = &decl.nonideal {
-        found.blocks(&section.blocks, |applied| match applied {
-            Applied::To(entry) => (vec![&entry.key], vec![&entry.value]),
-            Applied::By(e) => (Vec::new(), vec![e]),
-        });
-    }
+    found.blocks(&decl.nonideal, |applied| match applied {
+        Applied::To(entry) => (vec![&entry.key], vec![&entry.value]),
+        Applied::By(e) => (Vec::new(), vec![e]),
+    });
     for blocks in [&decl.holonomic, &decl.nonholonomic] {
         found.blocks(blocks, |c| {
             (
@@ -114,14 +108,9 @@ fn used(decl: &Declaration) -> HashSet<String> {
             )
         });
     }
-    for blocks in [&decl.outputs, &decl.integrals] {
-        found.blocks(blocks, |output| (vec![&output.key], vec![&output.value]));
-    }
-    if let Some(section) = &decl.drawing {
-        found.blocks(&section.blocks, |shape| {
-            (Vec::new(), shape.args.iter().collect())
-        });
-    }
+    found.blocks(&decl.drawing, |shape| {
+        (Vec::new(), shape.args.iter().collect())
+    });
     for start in &decl.starts {
         for option in &start.options {
             found.expr(&option.default);
@@ -185,37 +174,23 @@ impl Names {
 
     fn expr(&mut self, e: &Expr) {
         match &e.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
             ExprKind::Name(name) => {
                 let text = name.to_string();
                 if !self.hidden.contains(&text) {
                     self.used.insert(text);
                 }
             }
-            ExprKind::Index(base, indices) => {
-                self.expr(base);
-                indices.iter().for_each(|i| self.expr(i));
-            }
-            ExprKind::Neg(inner)
-            | ExprKind::Group(inner)
-            | ExprKind::Field(inner, _)
-            | ExprKind::Quantity(inner, _) => self.expr(inner),
-            ExprKind::Chain(first, rest) => {
-                self.expr(first);
-                rest.iter().for_each(|(_, operand)| self.expr(operand));
-            }
-            ExprKind::Call(name, args) => {
-                self.used.insert(name.to_string());
-                args.iter().for_each(|a| self.expr(a));
-            }
-            ExprKind::Vector(components) => components.iter().for_each(|c| self.expr(c)),
+            ExprKind::Call(name, _) => drop(self.used.insert(name.to_string())),
             ExprKind::Sum { var, range, body } => {
                 self.expr(&range.from);
                 self.expr(&range.to);
                 self.hidden.push(var.to_string());
                 self.expr(body);
                 self.hidden.pop();
+                return;
             }
+            _ => {}
         }
+        e.parts().into_iter().for_each(|part| self.expr(part));
     }
 }

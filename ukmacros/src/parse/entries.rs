@@ -1,10 +1,10 @@
 //! Entries of sections, each by itself.
 
 use super::expr::{Expr, location};
-use super::grammar::{blocks, coordinates, declared, docs, expression, key};
+use super::grammar::{blocks, coordinates, declared, docs, expression, key, needed};
 use super::item::{
-    Applied, Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry,
-    Output, Param, PartUse, Shape, Start, StartOption,
+    Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
+    Shape, Start, StartOption,
 };
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Ident, TokenStream};
@@ -12,24 +12,20 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
+pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
-    if !input.peek(Token![=]) {
-        return Err(syn::Error::new(
-            key.name.span(),
-            format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name),
-        ));
-    }
-    let _: Token![=] = input.parse()?;
-    let default = expression(input, diag)?;
-    Ok(Param { docs, key, default })
+    let _: Token![=] = needed(input, &key.name, || {
+        format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name)
+    })?;
+    let value = expression(input, diag)?;
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
     let docs = docs(input, diag)?;
-    let (key, measure) = declared(input, diag)?;
-    Ok(Coord { docs, key, measure })
+    let key = declared(input, diag)?;
+    Ok(Coord { docs, key })
 }
 
 /// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
@@ -87,14 +83,12 @@ pub(super) fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Bo
 pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<PartUse> {
     docs(input, diag)?;
     let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        let message = format!(
+    let _: Token![:] = needed(input, &key.name, || {
+        format!(
             "a part needs the type that it is: `{0}: Leg` or `{0}: Leg {{ mass: m }}`",
             key.name
-        );
-        return Err(syn::Error::new(key.name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
+        )
+    })?;
     let path = input.call(syn::Path::parse_mod_style)?;
     let name = path.segments.last().map(|segment| segment.ident.clone());
     let mut out = PartUse {
@@ -131,17 +125,15 @@ pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Pa
 }
 
 /// `elbow: hinge(p, q, u)`.
-pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
+pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        let message = format!(
+    let _: Token![:] = needed(input, &key.name, || {
+        format!(
             "a joint needs a name: `name: pin(p, q)` (found `{}` first)",
             key.name
-        );
-        return Err(syn::Error::new(key.name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
+        )
+    })?;
     let value = match input.parse()? {
         syn::Expr::Assign(e) => {
             let message = "a joint of the tree says what is free, and has no `=`; equations go under `holonomic`";
@@ -150,7 +142,7 @@ pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<J
         }
         e => Expr::convert(e, diag),
     };
-    Ok(Joint { docs, key, value })
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
@@ -238,22 +230,18 @@ pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<E
         return Err(syn::Error::new(key.name.span(), message));
     }
     let _: Token![:] = input.parse()?;
-    let value = expression(input, diag)?;
-    Ok(Entry { key, value })
+    let (docs, value) = (Vec::new(), expression(input, diag)?);
+    Ok(Entry { docs, key, value })
 }
 
 pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation> {
     let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        return Err(syn::Error::new(
-            key.name.span(),
-            format!(
-                "a constraint needs a name: `name: lhs = rhs` (found `{}` first)",
-                key.name
-            ),
-        ));
-    }
-    let _: Token![:] = input.parse()?;
+    let _: Token![:] = needed(input, &key.name, || {
+        format!(
+            "a constraint needs a name: `name: lhs = rhs` (found `{}` first)",
+            key.name
+        )
+    })?;
     let e: syn::Expr = input.parse()?;
     let (lhs, rhs) = match e {
         syn::Expr::Assign(assign) => (*assign.left, Some(*assign.right)),
@@ -276,17 +264,12 @@ pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
     })
 }
 
-pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
+pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
-    let (key, measure) = declared(input, diag)?;
+    let key = declared(input, diag)?;
     let _: Token![=] = input.parse()?;
     let value = expression(input, diag)?;
-    Ok(Output {
-        docs,
-        key,
-        measure,
-        value,
-    })
+    Ok(Entry { docs, key, value })
 }
 
 /// `start name(option = number, …) until number { guesses }`.
@@ -363,11 +346,9 @@ fn listed<T>(
 fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
     let docs = docs(input, diag)?;
     let name: Ident = input.parse()?;
-    if !input.peek(Token![=]) {
-        let message = format!("option `{name}` needs a default: `{name} = 1.0`");
-        return Err(syn::Error::new(name.span(), message));
-    }
-    let _: Token![=] = input.parse()?;
+    let _: Token![=] = needed(input, &name, || {
+        format!("option `{name}` needs a default: `{name} = 1.0`")
+    })?;
     let default = expression(input, diag)?;
     Ok(StartOption {
         docs,

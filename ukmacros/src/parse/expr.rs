@@ -84,6 +84,36 @@ impl Range {
     }
 }
 
+/// The expressions that one consists of, to be looked at or to be changed.
+macro_rules! parts {
+    ($parts:ident, $as_ref:ident $(, $mut:ident)?) => {
+        /// The expressions that it consists of, in the order of the text.
+        pub(crate) fn $parts(&$($mut)? self) -> Vec<&$($mut)? Expr> {
+            match &$($mut)? self.kind {
+                ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Name(_) | ExprKind::Error => Vec::new(),
+                ExprKind::Quantity(inner, _)
+                | ExprKind::Field(inner, _)
+                | ExprKind::Neg(inner)
+                | ExprKind::Group(inner) => vec![inner.$as_ref()],
+                ExprKind::Index(base, indices) => {
+                    std::iter::once(base.$as_ref()).chain(indices).collect()
+                }
+                ExprKind::Chain(first, rest) => {
+                    let mut parts = vec![first.$as_ref()];
+                    for (_, operand) in rest {
+                        parts.push(operand);
+                    }
+                    parts
+                }
+                ExprKind::Call(_, list) | ExprKind::Vector(list) => Vec::from_iter(list),
+                ExprKind::Sum { range, body, .. } => {
+                    vec![range.from.$as_ref(), range.to.$as_ref(), body.$as_ref()]
+                }
+            }
+        }
+    };
+}
+
 impl Expr {
     /// From Rust's expression; what has no meaning here is reported and becomes [`ExprKind::Error`].
     pub(crate) fn convert(e: syn::Expr, diag: &Diagnostics) -> Self {
@@ -123,35 +153,15 @@ impl Expr {
         }
     }
 
+    parts!(parts, as_ref);
+    parts!(parts_mut, as_mut, mut);
+
     /// Visits all names in it, of values and of functions.
     pub(crate) fn names(&self, visit: &mut dyn FnMut(&Ident)) {
-        let mut all = |list: &[Expr]| list.iter().for_each(|e| e.names(visit));
-        match &self.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
-            ExprKind::Name(name) => visit(name),
-            ExprKind::Index(base, indices) => {
-                all(indices);
-                base.names(visit);
-            }
-            ExprKind::Field(inner, _)
-            | ExprKind::Neg(inner)
-            | ExprKind::Group(inner)
-            | ExprKind::Quantity(inner, _) => inner.names(visit),
-            ExprKind::Chain(first, rest) => {
-                first.names(visit);
-                rest.iter().for_each(|(_, operand)| operand.names(visit));
-            }
-            ExprKind::Call(name, args) => {
-                all(args);
-                visit(name);
-            }
-            ExprKind::Vector(components) => all(components),
-            ExprKind::Sum { range, body, .. } => {
-                range.from.names(visit);
-                range.to.names(visit);
-                body.names(visit);
-            }
+        if let ExprKind::Name(name) | ExprKind::Call(name, _) = &self.kind {
+            visit(name);
         }
+        self.parts().iter().for_each(|part| part.names(visit));
     }
 
     /// What stands for an expression that is reported already.

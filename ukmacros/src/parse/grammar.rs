@@ -8,11 +8,12 @@ use super::entries::{
     output_entry, param_entry, part, shape, start, term,
 };
 use super::expr::{Expr, Range};
-use super::item::{Block, Const, Declaration, Key, Measure, Merged, Section};
+use super::item::{Block, Const, Declaration, Key, Measure, Merged};
 use super::{nesting, units, words};
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
+use std::collections::BTreeMap;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed};
 
@@ -63,6 +64,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         units: false,
         vis: vis.to_token_stream(),
         name,
+        sections: BTreeMap::new(),
         consts: Vec::new(),
         params: Vec::new(),
         coords: Vec::new(),
@@ -71,28 +73,27 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         parts: Vec::new(),
         before_parts: 0,
         merged: Merged::default(),
-        gravity: None,
+        gravity: Vec::new(),
         lets: Vec::new(),
-        mass: None,
-        kinetic: None,
+        mass: Vec::new(),
+        kinetic: Vec::new(),
         force: Vec::new(),
         forces: Vec::new(),
-        dissipation: None,
-        potential: None,
+        dissipation: Vec::new(),
+        potential: Vec::new(),
         holonomic: Vec::new(),
         nonholonomic: Vec::new(),
-        nonideal: None,
+        nonideal: Vec::new(),
         outputs: Vec::new(),
         integrals: Vec::new(),
         starts: Vec::new(),
-        drawing: None,
+        drawing: Vec::new(),
     };
     let body;
     braced!(body in input);
-    let mut seen: Vec<String> = Vec::new();
     while !body.is_empty() {
         // What follows a syntax error inside a declaration cannot be trusted: stop there, keep what was read.
-        if let Err(e) = section(&body, &mut out, &mut seen, diag) {
+        if let Err(e) = section(&body, &mut out, diag) {
             diag.syntax(&e);
             let _: TokenStream = body.parse()?;
         }
@@ -107,12 +108,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
     Ok(out)
 }
 
-fn section(
-    input: ParseStream<'_>,
-    out: &mut Declaration,
-    seen: &mut Vec<String>,
-    diag: &Diagnostics,
-) -> syn::Result<()> {
+fn section(input: ParseStream<'_>, out: &mut Declaration, diag: &Diagnostics) -> syn::Result<()> {
     let docs = docs(input, diag)?;
     if input.peek(Token![const]) {
         out.consts.push(constant(input, docs, diag)?);
@@ -136,14 +132,15 @@ fn section(
         out.starts.push(start(input, docs, diag)?);
         return Ok(());
     }
-    if seen.contains(&name) {
+    let place = keyword.span();
+    if out.sections.contains_key(&name) {
         // Its names may be those of the first one, or others.
         let message = format!("section `{name}` appears twice; put its entries into one");
-        diag.damage(keyword.span(), message);
+        diag.damage(place, message);
         skip(input);
         return Ok(());
     }
-    seen.push(name.clone());
+    out.sections.insert(name.clone(), keyword);
     match name.as_str() {
         "params" => blocks(input, &mut out.params, diag, param_entry),
         "coords" => blocks(input, &mut out.coords, diag, coord_entry),
@@ -153,23 +150,23 @@ fn section(
             blocks(input, &mut out.parts, diag, part)
         }
         "tree" => blocks(input, &mut out.tree, diag, joint),
-        "gravity" => present(input, keyword, &mut out.gravity, diag, term),
-        "mass" => present(input, keyword, &mut out.mass, diag, mass_entry),
-        "kinetic" => present(input, keyword, &mut out.kinetic, diag, term),
-        "potential" => present(input, keyword, &mut out.potential, diag, term),
+        "gravity" => blocks(input, &mut out.gravity, diag, term),
+        "mass" => blocks(input, &mut out.mass, diag, mass_entry),
+        "kinetic" => blocks(input, &mut out.kinetic, diag, term),
+        "potential" => blocks(input, &mut out.potential, diag, term),
         "force" => blocks(input, &mut out.force, diag, entry),
         "forces" => blocks(input, &mut out.forces, diag, acting),
-        "dissipation" => present(input, keyword, &mut out.dissipation, diag, term),
-        "nonideal" => present(input, keyword, &mut out.nonideal, diag, applied),
+        "dissipation" => blocks(input, &mut out.dissipation, diag, term),
+        "nonideal" => blocks(input, &mut out.nonideal, diag, applied),
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
         "integral" => blocks(input, &mut out.integrals, diag, output_entry),
-        "draw" => present(input, keyword, &mut out.drawing, diag, shape),
+        "draw" => blocks(input, &mut out.drawing, diag, shape),
         _ => {
             let remedy = format!("sections are {}", sections());
             let near = suggest(&name, SECTIONS.split(' '), &remedy);
-            diag.damage(keyword.span(), format!("unknown section `{name}`{near}"));
+            diag.damage(place, format!("unknown section `{name}`{near}"));
             skip(input);
             Ok(())
         }
@@ -195,6 +192,7 @@ fn sections() -> String {
 }
 
 /// What stands before a declaration, a section or an entry.
+#[derive(Default)]
 struct Attributes {
     /// The text of doc comments.
     docs: Vec<String>,
@@ -208,8 +206,7 @@ struct Attributes {
 
 /// Doc comments, and before a declaration the path of the crate `ukcore` and the lints allowed.
 fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attributes> {
-    let (mut docs, mut runtime, mut lints) = (Vec::new(), None, TokenStream::new());
-    let mut part = false;
+    let mut found = Attributes::default();
     for attribute in input.call(syn::Attribute::parse_outer)? {
         match &attribute.meta {
             syn::Meta::NameValue(syn::MetaNameValue {
@@ -221,11 +218,13 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     }),
                 ..
             }) if path.is_ident("doc") => {
-                docs.extend(text.value().lines().map(|l| l.trim().to_owned()));
+                found
+                    .docs
+                    .extend(text.value().lines().map(|l| l.trim().to_owned()));
             }
             syn::Meta::List(list) if list.path.is_ident("ukcore") => {
                 if list.parse_args::<Ident>().is_ok_and(|word| word == "part") {
-                    part = true;
+                    found.part = true;
                     continue;
                 }
                 let named = |input: ParseStream<'_>| {
@@ -234,7 +233,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     input.call(syn::Path::parse_mod_style)
                 };
                 match list.parse_args_with(named) {
-                    Ok(path) => runtime = Some(path.to_token_stream()),
+                    Ok(path) => found.runtime = Some(path.to_token_stream()),
                     Err(_) => diag.error(
                         Loc::of(&attribute.meta),
                         "this attribute is written `#[ukcore(part)]` or `#[ukcore(crate = my::path::to::ukcore)]`",
@@ -242,48 +241,36 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                 }
             }
             syn::Meta::List(list) if list.path.is_ident("allow") => {
-                attribute.to_tokens(&mut lints);
+                attribute.to_tokens(&mut found.lints);
             }
             other => diag.error(Loc::of(other), "only doc comments are allowed here"),
         }
     }
-    Ok(Attributes {
-        docs,
-        runtime,
-        lints,
-        part,
-    })
+    Ok(found)
 }
 
 /// The text of doc comments; other attributes are refused.
 pub(super) fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
     let place = input.span();
-    let Attributes {
-        docs,
-        runtime,
-        lints,
-        part,
-    } = attributes(input, diag)?;
+    let found = attributes(input, diag)?;
     let misplaced = [
-        (part, "#[ukcore(part)]"),
-        (runtime.is_some(), "#[ukcore(crate = …)]"),
-        (!lints.is_empty(), "#[allow(…)]"),
+        (found.part, "#[ukcore(part)]"),
+        (found.runtime.is_some(), "#[ukcore(crate = …)]"),
+        (!found.lints.is_empty(), "#[allow(…)]"),
     ];
     for (_, attribute) in misplaced.into_iter().filter(|(found, _)| *found) {
         let message = format!("`{attribute}` stands before the whole declaration");
         diag.error(place, message);
     }
-    Ok(docs)
+    Ok(found.docs)
 }
 
 fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Const> {
     let _: Token![const] = input.parse()?;
     let name: Ident = input.parse()?;
-    if !input.peek(Token![:]) {
-        let message = format!("a constant needs its type: `const {name}: usize = 3;`");
-        return Err(syn::Error::new(name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
+    let _: Token![:] = needed(input, &name, || {
+        format!("a constant needs its type: `const {name}: usize = 3;`")
+    })?;
     let ty: Ident = input.parse()?;
     if ty != "usize" && ty != "f64" {
         diag.error(
@@ -302,25 +289,32 @@ fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> sy
     })
 }
 
+/// What has to stand next; where it does not, `message` is told of `name`.
+pub(super) fn needed<T: syn::parse::Parse>(
+    input: ParseStream<'_>,
+    name: &Ident,
+    message: impl FnOnce() -> String,
+) -> syn::Result<T> {
+    let found = input.parse();
+    found.map_err(|_| syn::Error::new(name.span(), message()))
+}
+
 pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     let e: syn::Expr = input.parse()?;
     Ok(Expr::convert(e, diag))
 }
 
 pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
-    let (key, measure) = declared(input, diag)?;
-    if let Some(Measure { loc, .. }) = measure {
+    let mut key = declared(input, diag)?;
+    if let Some(Measure { loc, .. }) = key.measure.take() {
         let message = "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared";
         diag.error(loc, message);
     }
     Ok(key)
 }
 
-/// A key, and the unit of what it declares.
-pub(super) fn declared(
-    input: ParseStream<'_>,
-    diag: &Diagnostics,
-) -> syn::Result<(Key, Option<Measure>)> {
+/// A key, with the unit of what it declares.
+pub(super) fn declared(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let name: Ident = input.parse()?;
     let mut indices = Vec::new();
     let mut loc: Loc = name.span().into();
@@ -340,13 +334,13 @@ pub(super) fn declared(
             return Err(error);
         }
     }
-    let key = Key {
+    Ok(Key {
         name,
         indices,
         fields: Vec::new(),
+        measure,
         loc,
-    };
-    Ok((key, measure))
+    })
 }
 
 /// The name of coordinates: a key, or `link[i].angle` of a body, or `leg[i].knee.angle` of a part's.
@@ -430,18 +424,4 @@ fn for_block<T>(
             body: Vec::new(),
         }),
     }
-}
-
-fn present<T>(
-    input: ParseStream<'_>,
-    keyword: Ident,
-    out: &mut Option<Section<T>>,
-    diag: &Diagnostics,
-    parse: EntryParser<T>,
-) -> syn::Result<()> {
-    let section = out.get_or_insert(Section {
-        keyword,
-        blocks: Vec::new(),
-    });
-    blocks(input, &mut section.blocks, diag, parse)
 }

@@ -20,37 +20,33 @@ pub(crate) struct Declaration {
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
     pub(crate) name: Ident,
+    /// The keywords of its sections, by their text: that a section is there may matter where nothing stands in it.
+    pub(crate) sections: BTreeMap<String, Ident>,
     pub(crate) consts: Vec<Const>,
-    pub(crate) params: Vec<Block<Param>>,
+    pub(crate) params: Vec<Block<Entry>>,
     pub(crate) coords: Vec<Block<Coord>>,
     pub(crate) bodies: Vec<Block<Body>>,
-    pub(crate) tree: Vec<Block<Joint>>,
+    pub(crate) tree: Vec<Block<Entry>>,
     pub(crate) parts: Vec<Block<PartUse>>,
     /// How many of `lets` stand before its parts.
     pub(crate) before_parts: usize,
     /// What parts became of it.
     pub(crate) merged: Merged,
-    pub(crate) gravity: Option<Section<Expr>>,
+    pub(crate) gravity: Vec<Block<Expr>>,
     pub(crate) lets: Vec<Block<Let>>,
-    pub(crate) mass: Option<Section<MassEntry>>,
-    pub(crate) kinetic: Option<Section<Expr>>,
+    pub(crate) mass: Vec<Block<MassEntry>>,
+    pub(crate) kinetic: Vec<Block<Expr>>,
     pub(crate) force: Vec<Block<Entry>>,
     pub(crate) forces: Vec<Block<Expr>>,
-    pub(crate) dissipation: Option<Section<Expr>>,
-    pub(crate) potential: Option<Section<Expr>>,
+    pub(crate) dissipation: Vec<Block<Expr>>,
+    pub(crate) potential: Vec<Block<Expr>>,
     pub(crate) holonomic: Vec<Block<Equation>>,
     pub(crate) nonholonomic: Vec<Block<Equation>>,
-    pub(crate) nonideal: Option<Section<Applied>>,
-    pub(crate) outputs: Vec<Block<Output>>,
-    pub(crate) integrals: Vec<Block<Output>>,
+    pub(crate) nonideal: Vec<Block<Applied>>,
+    pub(crate) outputs: Vec<Block<Entry>>,
+    pub(crate) integrals: Vec<Block<Entry>>,
     pub(crate) starts: Vec<Start>,
-    pub(crate) drawing: Option<Section<Shape>>,
-}
-
-/// A section whose presence matters, not only its entries.
-pub(crate) struct Section<T> {
-    pub(crate) keyword: Ident,
-    pub(crate) blocks: Vec<Block<T>>,
+    pub(crate) drawing: Vec<Block<Shape>>,
 }
 
 /// An entry, or a `for` over entries.
@@ -90,22 +86,25 @@ pub(crate) struct Key {
     pub(crate) indices: Vec<Expr>,
     /// What follows dots, with indices.
     pub(crate) fields: Vec<(Ident, Vec<Expr>)>,
+    /// Where what it declares has one: `s [m]`.
+    pub(crate) measure: Option<Measure>,
     /// From the name to the last token.
     pub(crate) loc: Loc,
 }
 
-/// `m = 1.0`, `k[N] = 2.0`.
-pub(crate) struct Param {
+/// What is said of a name. Of a parameter its default: `k[N] = 2.0`. Of a joint of the tree what it is, its coordinates being those of its
+/// second body: `elbow: hinge(upper.at([l, 0, 0]), fore.at([0, 0, 0]), u)`. Of a coordinate the force on it: `x: -k * x`. Of an output or
+/// an integral its value: `fall = y[0]`, `swing [deg] = atan2(x, -y)`.
+pub(crate) struct Entry {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
-    pub(crate) default: Expr,
+    pub(crate) value: Expr,
 }
 
 /// `x[N]`, `s [m]`.
 pub(crate) struct Coord {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
-    pub(crate) measure: Option<Measure>,
 }
 
 /// A unit, and where its brackets are.
@@ -125,13 +124,6 @@ pub(crate) struct Body {
     pub(crate) mass: Option<Expr>,
     pub(crate) inertia: Option<Expr>,
     pub(crate) centre: Option<Expr>,
-}
-
-/// `elbow: hinge(upper.at([l, 0, 0]), fore.at([0, 0, 0]), u)`, whose coordinates are those of its second body.
-pub(crate) struct Joint {
-    pub(crate) docs: Vec<String>,
-    pub(crate) key: Key,
-    pub(crate) value: Expr,
 }
 
 /// `leg[6]: Leg { phase: 0.1 }`, a declaration within this one.
@@ -191,12 +183,6 @@ pub(crate) struct MassEntry {
     pub(crate) value: Expr,
 }
 
-/// `x: value`.
-pub(crate) struct Entry {
-    pub(crate) key: Key,
-    pub(crate) value: Expr,
-}
-
 /// An entry of `nonideal`: of a coordinate, or what acts on bodies.
 pub(crate) enum Applied {
     To(Entry),
@@ -209,14 +195,6 @@ pub(crate) struct Equation {
     pub(crate) lhs: Expr,
     /// Of a joint, 0 if it is left out.
     pub(crate) rhs: Option<Expr>,
-}
-
-/// `fall = y[0]`, `swing [deg] = atan2(x, -y)`.
-pub(crate) struct Output {
-    pub(crate) docs: Vec<String>,
-    pub(crate) key: Key,
-    pub(crate) measure: Option<Measure>,
-    pub(crate) value: Expr,
 }
 
 /// `start released(angle = 0.5) { x = l * sin(angle); y near -l }`.

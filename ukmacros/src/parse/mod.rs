@@ -13,6 +13,6 @@ pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
     Applied, Block, Body, Const, Declaration, Entry, Equation, Function, Given, Guess, Key, Let,
-    LetValue, MassEntry, Measure, Output, PartUse, Section, Shape, Start,
+    LetValue, MassEntry, Measure, PartUse, Shape, Start,
 };
 pub(crate) use table::{Table, split};

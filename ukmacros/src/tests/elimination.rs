@@ -135,7 +135,7 @@ impl Tally {
                 turned,
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
-                let mut pivots = order.pivots().iter();
+                let mut pivots = order.pivots.iter();
                 let rotated = pivots.any(|p| matches!(p, Pivoting::Rotation(_)));
                 self.rotated += usize::from(rotated);
                 let elimination = eliminate(&task, order, &mut system.graph);

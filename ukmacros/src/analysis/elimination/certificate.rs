@@ -46,7 +46,7 @@
 use super::dropping::least;
 use super::{Elimination, Pair, Pivoting, Rotation};
 use crate::analysis::dynamics::Dynamics;
-use crate::expr::{Func, Graph, Id, Node, System};
+use crate::expr::{Func, Graph, Id, Node, System, common_power};
 use std::collections::{BTreeSet, HashSet};
 
 /// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
@@ -108,6 +108,7 @@ pub(crate) struct Straight {
 }
 
 /// How q̈ is solved for, for the reader. Positions: coordinate i is i, constraint i is n + i.
+#[derive(Default)]
 pub(crate) struct Solve {
     /// The pivots in their order.
     pub(crate) pivots: Vec<Pivoting>,
@@ -162,13 +163,9 @@ impl Straight {
             fill: fill.collect(),
             checks: checks.collect(),
             least_share: self.elimination.least_share(),
-            velocities: Vec::new(),
-            turned: Vec::new(),
-            solved: Vec::new(),
-            copies: Vec::new(),
-            regular: Vec::new(),
             met: self.met.clone(),
             droppable: self.droppable.clone(),
+            ..Solve::default()
         }
     }
 
@@ -434,18 +431,13 @@ fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
 /// Both without the `positive` factors that they share.
 fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
     let others = g.factors(b);
-    let mut common = Vec::new();
-    for (base, e) in g.factors(a) {
-        let Some((_, other)) = others.iter().find(|(b, _)| *b == base) else {
-            continue;
-        };
-        if (e > 0) == (*other > 0) {
-            let least = if e > 0 { e.min(*other) } else { e.max(*other) };
-            if positive.contains(&base) {
-                common.push((base, -least));
-            }
-        }
-    }
+    let own = g.factors(a).into_iter();
+    let common = own.filter(|(base, _)| positive.contains(base));
+    let common = common.filter_map(|(base, e)| {
+        let (_, other) = others.iter().find(|(b, _)| *b == base)?;
+        Some((base, -common_power(e, *other)?))
+    });
+    let common: Vec<(Id, i32)> = common.collect();
     let mut divide = |id: Id| {
         let mut all = common.clone();
         all.push((id, 1));

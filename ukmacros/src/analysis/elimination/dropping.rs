@@ -23,9 +23,10 @@ use super::certificate::{MET, SAFE_SHARE};
 use super::matrix::Factor;
 use super::solution::{Forward, Solution};
 use crate::analysis::dynamics::Dynamics;
+use crate::analysis::groups::Groups;
 use crate::analysis::probe::Random;
 use crate::expr::{Func, Graph, Id};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
 const NOTHING: f64 = 1.5e-11;
@@ -87,18 +88,18 @@ pub(super) fn droppings(
         return Vec::new();
     }
     // N² of each part.
-    let parts = parts(factors);
+    let mut parts = parts(factors, n + rhs.len());
     let mut squares: BTreeMap<usize, Vec<(f64, Id)>> = BTreeMap::new();
     for (i, (x, q)) in motion.coordinates.iter().zip(force).enumerate() {
         if let Some(m) = d.mass.get(&(i, i)) {
             let done = g.product(&[(*x, 2), (*m, 1)]);
             let free = g.product(&[(*q, 2), (*m, -1)]);
-            let part = squares.entry(parts[&i]).or_default();
+            let part = squares.entry(parts.of(i)).or_default();
             part.extend([(1.0, done), (1.0, free)]);
         }
     }
     let dropped = dropped.into_iter().map(|(single, right)| {
-        let squares = squares.get(&parts[&single.at]);
+        let squares = squares.get(&parts.of(single.at));
         let square = g.sum(squares.map_or(&[], |squares| squares));
         let own = g.square(rhs[single.at - n]);
         let size = g.mul(single.reference, square);
@@ -170,44 +171,28 @@ pub(super) fn shares(kernel: &[Id], squares: &[Id], g: &mut Graph) -> Vec<Option
     shares.collect()
 }
 
-/// Of each position the part of the mechanism it is in: parts are not coupled.
-fn parts(factors: &[Factor]) -> BTreeMap<usize, usize> {
-    let mut part = BTreeMap::new();
-    // Backwards, so that what a step touches is known.
-    for factor in factors.iter().rev() {
-        let (own, touched): (Vec<usize>, Vec<usize>) = match factor {
-            Factor::Single(single) => (
-                vec![single.at],
-                single.row.iter().map(|(a, _)| *a).collect(),
-            ),
-            Factor::Double(double) => (
-                vec![double.pair.coordinate, double.pair.constraint],
-                double.touched.iter().map(|touched| touched.at).collect(),
-            ),
-            Factor::Turned(turned) => {
-                let [place, other] = turned.rotation.coordinates;
-                let touched = turned.touched.iter().map(|(at, _)| *at);
-                (
-                    vec![other, turned.rotation.constraint],
-                    [place].into_iter().chain(touched).collect(),
-                )
+/// The parts of the mechanism that positions, so many, are in: parts are not coupled.
+fn parts(factors: &[Factor], positions: usize) -> Groups {
+    let mut parts = Groups::new(positions);
+    let mut join = |at: usize, touched: &mut dyn Iterator<Item = usize>| {
+        touched.for_each(|other| parts.join(at, other));
+    };
+    for factor in factors {
+        match factor {
+            Factor::Single(single) => join(single.at, &mut single.row.iter().map(|(a, _)| *a)),
+            Factor::Double(double) => {
+                let touched = double.touched.iter().map(|touched| touched.at);
+                let own = [double.pair.constraint].into_iter();
+                join(double.pair.coordinate, &mut own.chain(touched));
             }
-        };
-        let first = touched.first().and_then(|a| part.get(a)).copied();
-        let first = first.unwrap_or(own[0]);
-        let joined: BTreeSet<usize> = touched
-            .iter()
-            .filter_map(|a| part.get(a))
-            .copied()
-            .collect();
-        if joined.len() > 1 {
-            part.values_mut()
-                .filter(|p| joined.contains(p))
-                .for_each(|p| *p = first);
+            Factor::Turned(turned) => {
+                let own = turned.rotation.coordinates.into_iter();
+                let touched = turned.touched.iter().map(|(at, _)| *at);
+                join(turned.rotation.constraint, &mut own.chain(touched));
+            }
         }
-        part.extend(own.iter().map(|k| (*k, first)));
     }
-    part
+    parts
 }
 
 impl Dropping {

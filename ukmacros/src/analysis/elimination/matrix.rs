@@ -14,8 +14,12 @@ use std::collections::{BTreeMap, BTreeSet};
 const CHAIN: usize = 8;
 
 /// K, with entries that are sums still open.
-pub(super) struct Matrix {
+pub(super) struct Matrix<'a> {
     pub(super) n: usize,
+    /// Of coordinates and constraints.
+    pub(super) names: &'a [String],
+    /// Names of what is computed.
+    pub(super) hints: Vec<(Id, String)>,
     /// (row ≥ column) → terms.
     entries: BTreeMap<(usize, usize), Entry>,
     pub(super) rows: Vec<BTreeSet<usize>>,
@@ -75,21 +79,11 @@ pub(super) struct Single {
     pub(super) defers: bool,
 }
 
-/// Why there is no pivot at `k`.
-fn vanished(k: usize, n: usize, names: &[String]) -> String {
-    let name = &names[k];
-    match k < n {
-        true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
-        false => format!(
-            "`{name}` is implied by the constraints eliminated before it, whatever the state"
-        ),
-    }
-}
-
-impl Matrix {
+impl<'a> Matrix<'a> {
     /// K = [M Aᵀ; A 0] with the given A.
     pub(super) fn new(
         d: &Dynamics,
+        names: &'a [String],
         jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
         droppable: BTreeSet<usize>,
@@ -123,6 +117,8 @@ impl Matrix {
         }
         Matrix {
             n,
+            names,
+            hints: Vec::new(),
             entries,
             rows,
             deferred: vec![None; size],
@@ -226,57 +222,46 @@ impl Matrix {
     pub(super) fn step(
         &mut self,
         step: Pivoting,
-        names: &[String],
         g: &mut Graph,
-        hints: &mut Vec<(Id, String)>,
     ) -> Result<(Factor, Vec<Divisor>), String> {
         Ok(match step {
             Pivoting::Rotation(rotation) => {
-                let (turned, divisors) = self.rotate(rotation, names, g, hints)?;
+                let (turned, divisors) = self.rotate(rotation, g)?;
                 (Factor::Turned(turned), divisors)
             }
             Pivoting::Pair(pair) => {
-                let double = self.eliminate_pair(pair, names, g)?;
+                let double = self.eliminate_pair(pair, g)?;
                 // Parameters may make it vanish, or all but cancel.
                 let divisor = (!pair.coefficient.number).then(|| {
                     let entry = self.entry(pair.coordinate, pair.constraint);
                     let value = g.square(double.coefficient);
                     Divisor {
                         reference: entry.square(g),
-                        ..Divisor::positive(pair.constraint, value, names)
+                        ..Divisor::positive(pair.constraint, value, self.names)
                     }
                 });
                 (Factor::Double(double), divisor.into_iter().collect())
             }
             Pivoting::Single(k) => {
-                let (single, divisor) = self.eliminate(k, names, g, hints)?;
+                let (single, divisor) = self.eliminate(k, g)?;
                 (Factor::Single(single), vec![divisor])
             }
         })
     }
 
     /// Eliminates a coordinate or constraint.
-    fn eliminate(
-        &mut self,
-        k: usize,
-        names: &[String],
-        g: &mut Graph,
-        hints: &mut Vec<(Id, String)>,
-    ) -> Result<(Single, Divisor), String> {
+    fn eliminate(&mut self, k: usize, g: &mut Graph) -> Result<(Single, Divisor), String> {
         let constraint = k >= self.n;
         let pivot = self.pivot(k, g).or_else(|| self.nothing_left(k, g));
-        let (numerator, reference, denominator) =
-            pivot.ok_or_else(|| vanished(k, self.n, names))?;
+        let (numerator, reference, denominator) = pivot.ok_or_else(|| self.vanished(k))?;
         let droppable = self.droppable.contains(&k);
-        hints.push((numerator, format!("pivot_{}", names[k])));
-        hints.push((reference, format!("diagonal_{}", names[k])));
+        let name = &self.names[k];
+        self.hints.push((numerator, format!("pivot_{name}")));
+        self.hints.push((reference, format!("diagonal_{name}")));
         let divisor = Divisor {
-            name: names[k].clone(),
-            position: k,
-            value: numerator,
             reference,
             droppable,
-            may_vanish: false,
+            ..Divisor::positive(k, numerator, self.names)
         };
         let one = g.one();
         // Of a row that may be left out no division is put off.
@@ -306,7 +291,8 @@ impl Matrix {
         };
         if constraint {
             for (a, entry) in single.row.iter().filter(|(a, _)| *a >= self.n) {
-                hints.push((*entry, format!("{}_with_{}", names[*a], names[k])));
+                let hint = format!("{}_with_{name}", self.names[*a]);
+                self.hints.push((*entry, hint));
             }
         }
         if let [(a, off)] = single.row[..]
@@ -329,12 +315,24 @@ impl Matrix {
             let mut factor = g.mul(*entry, inverse);
             if single.shared {
                 factor = g.hold_whole(factor);
-                hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
+                let hint = format!("{}_by_{name}", self.names[*a]);
+                self.hints.push((factor, hint));
             }
             single.factors.push((*a, factor));
         }
         self.spread(&single, inverse, g);
         Ok((single, divisor))
+    }
+
+    /// Why there is no pivot at `k`.
+    pub(super) fn vanished(&self, k: usize) -> String {
+        let name = &self.names[k];
+        match k < self.n {
+            true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
+            false => format!(
+                "`{name}` is implied by the constraints eliminated before it, whatever the state"
+            ),
+        }
     }
 
     /// The pivot of a constraint of which nothing is left whatever the state, as it follows from others: zero, beside what it could be.

@@ -13,7 +13,7 @@ const MAX_ENTRIES: usize = 20_000;
 /// An order of elimination, and what it does to the pattern of K.
 #[derive(Clone)]
 pub(crate) struct Order {
-    pub(super) pivots: Vec<Pivoting>,
+    pub(crate) pivots: Vec<Pivoting>,
     /// Positions (row > column) that are zero in K and filled.
     pub(super) fill: Vec<(usize, usize)>,
     /// How many entries its steps change.
@@ -21,12 +21,6 @@ pub(crate) struct Order {
 }
 
 impl Order {
-    /// The pivots.
-    #[cfg(test)]
-    pub(crate) fn pivots(&self) -> &[Pivoting] {
-        &self.pivots
-    }
-
     /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
     pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
         let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
@@ -129,7 +123,7 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
             ));
         }
     }
-    if let Some(j) = pattern.coordinates().find(|j| !pattern.has_inertia(*j)) {
+    if let Some(j) = pattern.coordinates().find(|j| !pattern.inertia[*j]) {
         return Err(format!(
             "`{}` has no mass, and no constraint in which its coefficient is a number",
             names[j]
@@ -264,10 +258,10 @@ fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
             [1, usize::from(!pattern.shares_no_inertia(k)), size]
         }
         Taste::Leaves => [0, pattern.filled_by(k), changed],
-        Taste::Roots => [changed, 1, usize::from(!pattern.lasts(k))],
+        Taste::Roots => [changed, 1, usize::from(!pattern.lasting.contains(&k))],
         Taste::Last => [0, 0, changed],
     };
-    let waits = pattern.depth(k);
-    let rank = [a, b, c, usize::from(!pattern.was_coupled(k)), waits];
+    let waits = pattern.depth[k];
+    let rank = [a, b, c, usize::from(!pattern.coupled[k]), waits];
     (rank, k, None)
 }

@@ -49,18 +49,13 @@ impl Double {
     }
 }
 
-impl Matrix {
+impl Matrix<'_> {
     /// Eliminates a coordinate with a constraint, whose pivot P = [μ a; a 0] has P⁻¹ = [0 1/a; 1/a −μ/a²].
-    pub(super) fn eliminate_pair(
-        &mut self,
-        pair: Pair,
-        names: &[String],
-        g: &mut Graph,
-    ) -> Result<Double, String> {
+    pub(super) fn eliminate_pair(&mut self, pair: Pair, g: &mut Graph) -> Result<Double, String> {
         let (j, c) = (pair.coordinate, pair.constraint);
         let (a, mu) = (self.entry(j, c).open(g), self.entry(j, j).open(g));
         if g.is_zero(a) || !g.uses(a).constant() {
-            let (name, of) = (&names[j], &names[c]);
+            let (name, of) = (&self.names[j], &self.names[c]);
             return Err(format!("the coefficient of `{name}` in `{of}` vanishes"));
         }
         let largest = self.entry(j, j).reference(g);

@@ -9,27 +9,27 @@ use std::collections::{BTreeMap, BTreeSet};
 const SMALL: f64 = 1.0 / 64.0;
 
 /// What is left of K. Positions: coordinate i is i, constraint i is n + i.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(super) struct Pattern {
     n: usize,
     left: BTreeSet<usize>,
     /// Neighbours that are left.
     near: Vec<BTreeSet<usize>>,
     /// Whether a coordinate has a diagonal entry.
-    inertia: Vec<bool>,
+    pub(super) inertia: Vec<bool>,
     /// Of each constraint, its coordinates that are left: not those that share inertia with eliminated ones.
     own: Vec<BTreeSet<usize>>,
     /// Entries (constraint, coordinate) that are the same at all states.
     fixed: BTreeMap<(usize, usize), Coefficient>,
     /// Whether a neighbour was eliminated alone.
-    coupled: Vec<bool>,
+    pub(super) coupled: Vec<bool>,
     /// Longest chain of divisions that a row waits for.
-    depth: Vec<usize>,
+    pub(super) depth: Vec<usize>,
     /// Coordinates whose inertia is declared to be the same at all states.
     steady: BTreeSet<usize>,
     /// Coordinates what is left of whose inertia is the same at all states, as far as the pattern tells: nothing is divided by it at run
     /// time.
-    lasting: BTreeSet<usize>,
+    pub(super) lasting: BTreeSet<usize>,
     /// Those that took the place of two, with the longest chain of rotations before them.
     turned: BTreeMap<usize, usize>,
     /// Constraints that may be left out, and are to be eliminated by themselves.
@@ -50,15 +50,10 @@ impl Pattern {
             near: vec![BTreeSet::new(); size],
             inertia: (0..n).map(|i| d.mass.contains_key(&(i, i))).collect(),
             own: vec![BTreeSet::new(); size],
-            fixed: BTreeMap::new(),
             coupled: vec![false; size],
             depth: vec![0; size],
-            steady: BTreeSet::new(),
-            lasting: BTreeSet::new(),
-            turned: BTreeMap::new(),
-            kept: BTreeSet::new(),
-            fill: BTreeSet::new(),
             declared,
+            ..Pattern::default()
         };
         for ((i, j), m) in &d.mass {
             pattern.join(*i, *j);
@@ -117,10 +112,6 @@ impl Pattern {
     /// Whether `k` is a coordinate.
     pub(super) fn is_coordinate(&self, k: usize) -> bool {
         k < self.n
-    }
-
-    pub(super) fn has_inertia(&self, coordinate: usize) -> bool {
-        self.inertia[coordinate]
     }
 
     /// The coordinates that are left.
@@ -239,19 +230,6 @@ impl Pattern {
     /// Whether `k` is a coordinate that is coupled to constraints alone.
     pub(super) fn shares_no_inertia(&self, k: usize) -> bool {
         k < self.n && self.near[k].range(..self.n).next().is_none()
-    }
-
-    pub(super) fn was_coupled(&self, k: usize) -> bool {
-        self.coupled[k]
-    }
-
-    /// Whether what is left of the inertia of `k` is known to be the same at all states.
-    pub(super) fn lasts(&self, k: usize) -> bool {
-        self.lasting.contains(&k)
-    }
-
-    pub(super) fn depth(&self, k: usize) -> usize {
-        self.depth[k]
     }
 
     /// Entries that eliminating `k` alone fills in.

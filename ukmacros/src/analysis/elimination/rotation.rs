@@ -114,16 +114,14 @@ impl Block {
     }
 }
 
-impl Matrix {
+impl Matrix<'_> {
     /// Turns two coordinates. Returns what that leaves, and what has to be positive, or to keep a share.
     pub(super) fn rotate(
         &mut self,
         rotation: Rotation,
-        names: &[String],
         g: &mut Graph,
-        hints: &mut Vec<(Id, String)>,
     ) -> Result<(Turned, Vec<Divisor>), String> {
-        let (of, c) = (rotation.coordinates, rotation.constraint);
+        let (names, of, c) = (self.names, rotation.coordinates, rotation.constraint);
         let a = of.map(|i| {
             let entry = self.entry(i, c).open(g);
             g.hold_inner(entry)
@@ -142,13 +140,10 @@ impl Matrix {
             false => g.inner(&a, &adjugate),
         };
         if g.is_zero(pivot) {
-            return Err(format!(
-                "`{}` is implied by the constraints eliminated before it, whatever the state",
-                names[c]
-            ));
+            return Err(self.vanished(c));
         }
-        hints.push((pivot, format!("pivot_{}", names[c])));
-        let divisors = self.checks(rotation, a, &block, pivot, names, g)?;
+        self.hints.push((pivot, format!("pivot_{}", names[c])));
+        let divisors = self.checks(rotation, a, &block, pivot, g)?;
         self.count_in(rotation, &block, g);
         let [one, other] = of.map(|i| self.turned[i]);
         let depth = 1 + one.unwrap_or(0) + other.unwrap_or(0);
@@ -169,7 +164,8 @@ impl Matrix {
             false => (adjugate, g.pow(pivot, -1)),
         };
         for (i, t) in of.into_iter().rev().zip(tangent) {
-            hints.push((g.unscaled(t).1, format!("{}_by_{}", names[i], names[c])));
+            let hint = format!("{}_by_{}", names[i], names[c]);
+            self.hints.push((g.unscaled(t).1, hint));
         }
         let inertia = g.product(&[(pivot, 1), (scale, 2)]);
         let inertia = g.hold_inner(inertia);
@@ -191,10 +187,9 @@ impl Matrix {
         a: [Id; 2],
         block: &Block,
         pivot: Id,
-        names: &[String],
         g: &mut Graph,
     ) -> Result<Vec<Divisor>, String> {
-        let (of, c) = (rotation.coordinates, rotation.constraint);
+        let (names, of, c) = (self.names, rotation.coordinates, rotation.constraint);
         let mut divisors = Vec::new();
         let apart = g.mul(block.own[0], block.own[1]);
         if !g.is_zero(block.shared) && !self.apart {

@@ -69,8 +69,6 @@ pub(super) struct Declared {
     pub(super) variables: Vec<Variable>,
     /// Its frame, once it is used.
     pub(super) frame: Option<Rc<Frame>>,
-    /// Its frame is being made.
-    pending: bool,
 }
 
 impl fmt::Display for Frame {
@@ -79,7 +77,20 @@ impl fmt::Display for Frame {
     }
 }
 
+impl Point {
+    pub(super) fn of(body: Rc<Frame>, place: Value) -> Value {
+        Value::Point(Rc::new(Point { body, place }))
+    }
+}
+
 impl Frame {
+    pub(super) fn ground() -> Rc<Self> {
+        Rc::new(Frame {
+            name: "ground".to_owned(),
+            moving: None,
+        })
+    }
+
     /// The length of vectors where it lives; nothing for the ground, which lives anywhere.
     pub(super) fn dimension(&self) -> Option<usize> {
         let moving = self.moving.as_ref()?;
@@ -239,7 +250,6 @@ impl<'m> Lowering<'m> {
                     body: body.clone(),
                     variables: scope.variables.clone(),
                     frame: None,
-                    pending: false,
                 });
             }
         });
@@ -282,8 +292,7 @@ impl<'m> Lowering<'m> {
         {
             return Value::Error;
         }
-        let declared = self.bodies.get(*position).and_then(Option::as_ref);
-        if declared.is_some_and(|declared| declared.pending) {
+        if self.pending.contains(position) {
             let message = format!("where `{name}` sits cannot depend on `{name}` itself");
             return self.error(name.span(), message);
         }
@@ -305,17 +314,11 @@ impl<'m> Lowering<'m> {
             chain.push(parent);
         }
         for body in chain.into_iter().rev() {
-            self.pending(body, true);
+            self.pending.push(body);
             self.place(body);
-            self.pending(body, false);
+            self.pending.pop();
         }
         self.bodies[position].as_ref()?.frame.clone()
-    }
-
-    fn pending(&mut self, position: usize, pending: bool) {
-        if let Some(Some(declared)) = self.bodies.get_mut(position) {
-            declared.pending = pending;
-        }
     }
 
     /// Makes the frame of the body at `position`, which hangs on none, or on one whose frame is known.
@@ -358,11 +361,7 @@ impl<'m> Lowering<'m> {
             });
             declared.frame = Some(frame.clone());
             if self.model.hung[position].is_some() {
-                let point = Point {
-                    body: frame,
-                    place: hangs,
-                };
-                self.note("tree", &[Value::Point(Rc::new(point))]);
+                self.note("tree", &[Point::of(frame, hangs)]);
             }
         }
     }
@@ -384,14 +383,6 @@ impl<'m> Lowering<'m> {
             return None;
         }
         Some(value.entries().to_vec())
-    }
-
-    /// The ground, where nothing else has its name.
-    pub(super) fn ground() -> Value {
-        Value::Body(Rc::new(Frame {
-            name: "ground".to_owned(),
-            moving: None,
-        }))
     }
 
     /// `body.at(p)`, `body.along(d)`: also of the body that a point belongs to.
@@ -436,10 +427,10 @@ impl<'m> Lowering<'m> {
             );
         }
         let value = match name == "at" {
-            true => Value::Point(Rc::new(Point {
-                place: frame.at(&value, &mut self.graph),
-                body: frame,
-            })),
+            true => {
+                let place = frame.at(&value, &mut self.graph);
+                Point::of(frame, place)
+            }
             false => frame.along(&value, &mut self.graph),
         };
         self.allowed_value(value, e.loc, env)

@@ -2,7 +2,6 @@
 
 use super::array::Value;
 use super::parts::PARTS;
-use super::reactions::Load;
 use super::{Constraint, ConstraintRef, Env, Kind, Lowering, Place};
 use crate::expr::graph::Id;
 use crate::model::{Scope, every};
@@ -62,7 +61,6 @@ impl<'m> Lowering<'m> {
             indices: self.indices(&key.indices, scope)?,
             components: Vec::new(),
             row: None,
-            unit_of: None,
         })
     }
 
@@ -89,7 +87,7 @@ impl<'m> Lowering<'m> {
             Kind::Nonholonomic => Place::Nonholonomic,
         };
         let env = Env::new(scope, place);
-        let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), Load::default());
+        let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), None);
         let mut known = true;
         match &equation.lhs.kind {
             ExprKind::Call(..) => {

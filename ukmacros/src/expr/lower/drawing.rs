@@ -74,11 +74,11 @@ impl<'m> Lowering<'m> {
 
     /// What is drawn.
     pub(super) fn drawing(&mut self, decl: &Declaration, top: &Scope<'m>) -> Drawing {
-        let Some(section) = &decl.drawing else {
+        if !decl.sections.contains_key("draw") {
             return self.skeleton();
-        };
+        }
         let mut out = Drawing::default();
-        top.unroll(&section.blocks, self.diag, &mut |shape, scope| {
+        top.unroll(&decl.drawing, self.diag, &mut |shape, scope| {
             self.shape(shape, &Env::new(scope, Place::Output), &mut out);
         });
         out

@@ -27,22 +27,9 @@ pub(super) struct OfBodies {
     pub(super) inertias: Vec<(String, Vec<Id>)>,
 }
 
-/// How a spatial body turns.
-struct Turns {
-    /// Its angular velocity in axes of its own.
-    spin: Value,
-    /// In any way: its coordinates are a quaternion.
-    freely: bool,
-}
-
 impl<'m> Lowering<'m> {
-    /// What the bodies of the declaration have by themselves; `defaults` are those of the parameters.
-    pub(super) fn of_bodies(
-        &mut self,
-        decl: &Declaration,
-        top: &Scope<'m>,
-        defaults: &[f64],
-    ) -> OfBodies {
+    /// What the bodies of the declaration have by themselves.
+    pub(super) fn of_bodies(&mut self, decl: &Declaration, top: &Scope<'m>) -> OfBodies {
         let mut out = OfBodies::default();
         let gravity = self.gravity(decl, top);
         for position in 0..self.bodies.len() {
@@ -55,8 +42,8 @@ impl<'m> Lowering<'m> {
                 continue;
             };
             let loc = body.key.loc;
-            let mass = self.mass_of(&body, &variables, defaults);
             let spatial = frame.dimension() == Some(3);
+            let mass = self.not_negative(body.mass.as_ref(), "mass", spatial, &variables);
             if let Some(energy) = self.hung_energy(&frame, mass) {
                 out.changing = out.changing.or(Some(loc));
                 out.turning.extend(energy);
@@ -67,19 +54,19 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let turns = self.turns(position, &frame);
-                let inertia = self.turning(&body, &variables, &turns, defaults, &mut out.turning);
+                let freely = self.turns_freely(position);
+                let inertia = self.turning(&body, &variables, &frame, freely, &mut out.turning);
                 let given = inertia.map(|rows| [vec![mass], rows].concat());
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
                 if let Some(first) = own {
-                    let name = body.key.name.clone();
-                    let at = &self.model.body_elements[position];
-                    let unit = self.unit(&name, &at.name, &at.indices, first + 3, loc);
-                    out.units.push(unit);
+                    let indices = &self.model.body_elements[position].indices;
+                    out.units
+                        .push(self.unit(&body.key.name, indices, first + 3, loc));
                 }
             } else {
-                let inertia = self.inertia_of(&body, &variables, defaults);
+                let inertia =
+                    self.not_negative(body.inertia.as_ref(), "inertia", false, &variables);
                 match own {
                     Some(first) => out.diagonal.extend(
                         (first..)
@@ -101,14 +88,9 @@ impl<'m> Lowering<'m> {
         }
         for joint in &self.model.joints {
             if joint.kind.coordinates.len() == 4 {
-                let unit = self.unit(
-                    &joint.key,
-                    &joint.name,
-                    &joint.indices,
-                    joint.first,
-                    joint.key.span().into(),
-                );
-                out.units.push(unit);
+                let (name, loc) = (&joint.key, joint.key.span().into());
+                out.units
+                    .push(self.unit(name, &joint.indices, joint.first, loc));
             }
         }
         out.diagonal.retain(|(_, m, _)| !self.graph.is_zero(*m));
@@ -144,10 +126,10 @@ impl<'m> Lowering<'m> {
 
     /// The vector that `gravity` gives, with its place.
     fn gravity(&mut self, decl: &Declaration, top: &Scope<'m>) -> Option<(Value, Loc)> {
-        let section = decl.gravity.as_ref()?;
+        let keyword = decl.sections.get("gravity")?.span();
         let mut terms = Vec::new();
         let (mut loc, mut third): (Option<Loc>, Option<Loc>) = (None, None);
-        top.unroll(&section.blocks, self.diag, &mut |e: &Expr, scope| {
+        top.unroll(&decl.gravity, self.diag, &mut |e: &Expr, scope| {
             if let ExprKind::Vector(entries) = &e.kind
                 && let [_, _, z] = &entries[..]
             {
@@ -156,7 +138,7 @@ impl<'m> Lowering<'m> {
             loc = Some(loc.map_or(e.loc, |l| l.to(e.loc)));
             self.chain(e, 1.0, &Env::new(scope, Place::Gravity), &mut terms);
         });
-        let (value, keyword) = (self.total(&terms, false), section.keyword.span());
+        let value = self.total(&terms, false);
         let loc = loc.unwrap_or(keyword.into());
         if value.is_error() {
             return None;
@@ -199,33 +181,18 @@ impl<'m> Lowering<'m> {
     }
 
     /// Values of `ids` by the defaults of the parameters, if all are known.
-    fn by_default(&self, ids: &[Id], defaults: &[f64]) -> Option<Vec<f64>> {
-        let values = eval(&self.graph, ids, &Point::of_parameters(defaults));
+    fn by_default(&self, ids: &[Id]) -> Option<Vec<f64>> {
+        let values = eval(&self.graph, ids, &Point::of_parameters(&self.defaults));
         values.iter().all(|x| x.is_finite()).then_some(values)
     }
 
-    fn mass_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
-        self.not_negative(
-            body.mass.as_ref(),
-            "mass",
-            body.spatial,
-            variables,
-            defaults,
-        )
-    }
-
-    fn inertia_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
-        self.not_negative(body.inertia.as_ref(), "inertia", false, variables, defaults)
-    }
-
-    /// A number that is not negative, nor zero where the body is `spatial`; 0 where none is given.
+    /// The mass or the inertia of a body: a number that is not negative, nor zero where the body is `spatial`; 0 where none is given.
     fn not_negative(
         &mut self,
         e: Option<&Expr>,
         what: &str,
         spatial: bool,
         variables: &[Variable],
-        defaults: &[f64],
     ) -> Id {
         let zero = self.graph.zero();
         let Some(e) = e else {
@@ -240,7 +207,7 @@ impl<'m> Lowering<'m> {
         let Some(numbers) = self.of_shape(&value, &[], e.loc) else {
             return zero;
         };
-        let number = self.by_default(&numbers, defaults).map_or(1.0, |x| x[0]);
+        let number = self.by_default(&numbers).map_or(1.0, |x| x[0]);
         if number < 0.0 {
             self.error(e.loc, format!("the {what} of a body must not be negative"));
         } else if spatial && number == 0.0 {
@@ -252,20 +219,17 @@ impl<'m> Lowering<'m> {
         numbers[0]
     }
 
-    /// How the body at `position` turns.
-    fn turns(&mut self, position: usize, frame: &Frame) -> Turns {
+    /// Whether the body at `position` turns in any way: by a quaternion.
+    fn turns_freely(&self, position: usize) -> bool {
         let model = self.model;
         let freely = |joint: usize| model.joints[joint].kind.coordinates.len() == 4;
-        Turns {
-            spin: self.spin(frame),
-            freely: model.own[position].is_some() || model.hung[position].is_some_and(freely),
-        }
+        model.own[position].is_some() || model.hung[position].is_some_and(freely)
     }
 
-    /// Whether these are the moments of a thin rod, which has none about one of its axes, hung where it cannot turn about that alone.
-    fn thin(&self, moments: &Value, turns: &Turns) -> bool {
+    /// Whether these are the moments of a thin rod, which has none about one of its axes: hung where it cannot turn about that alone.
+    fn thin(&self, moments: &Value) -> bool {
         let zeros = moments.entries().iter().filter(|j| self.graph.is_zero(**j));
-        !turns.freely && moments.shape() == [3] && zeros.count() == 1
+        moments.shape() == [3] && zeros.count() == 1
     }
 
     /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
@@ -273,11 +237,12 @@ impl<'m> Lowering<'m> {
         &mut self,
         body: &Body,
         variables: &[Variable],
-        turns: &Turns,
-        defaults: &[f64],
+        frame: &Frame,
+        freely: bool,
         out: &mut Vec<(f64, Id)>,
     ) -> Option<Vec<Id>> {
         let e = body.inertia.as_ref()?;
+        let spin = self.spin(frame);
         let value = self.part_of_body(e, variables);
         self.expect_all(&value, Dimension::INERTIA, "the inertia of a body", e.loc);
         let j = value.entries();
@@ -300,13 +265,13 @@ impl<'m> Lowering<'m> {
         };
         let mut all = lower.concat();
         all.extend(upper);
-        if let Some(numbers) = self.by_default(&all, defaults)
-            && let Err(reason) = possible(&numbers, self.thin(&value, turns))
+        if let Some(numbers) = self.by_default(&all)
+            && let Err(reason) = possible(&numbers, !freely && self.thin(&value))
         {
             self.error(e.loc, reason);
             return None;
         }
-        let spin = turns.spin.entries();
+        let spin = spin.entries();
         let mut l = lower;
         let mut d = [zero; 3];
         for k in 0..3 {
@@ -345,15 +310,8 @@ impl<'m> Lowering<'m> {
         Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
 
-    /// The row that keeps the quaternion whose coordinates begin at `first` a unit: that of `owner`, called `name` with `indices`.
-    fn unit(
-        &mut self,
-        name: &Ident,
-        owner: &str,
-        indices: &[usize],
-        first: usize,
-        loc: Loc,
-    ) -> Constraint {
+    /// The row that keeps the quaternion whose coordinates begin at `first` a unit: that of what is called `name`, with `indices`.
+    fn unit(&mut self, name: &Ident, indices: &[usize], first: usize, loc: Loc) -> Constraint {
         let indices = indices.iter();
         let mut terms = vec![(-1.0, self.graph.one())];
         for i in first..first + 4 {
@@ -364,11 +322,10 @@ impl<'m> Lowering<'m> {
         Constraint {
             item: ConstraintRef {
                 base: Ident::new(&format!("{name}_unit"), name.span()),
-                shown: owner.to_owned(),
+                shown: self.model.shown(&name.to_string()).to_owned(),
                 indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
                 components: Vec::new(),
-                row: None,
-                unit_of: Some(owner.to_owned()),
+                row: Some("unit"),
             },
             kind: Kind::Holonomic,
             phi,

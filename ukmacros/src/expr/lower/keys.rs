@@ -113,6 +113,7 @@ impl<'m> Lowering<'m> {
             name: found.name,
             indices: found.indices,
             fields: segments.split_off(found.used),
+            measure: None,
             loc: key.loc,
         };
         let whole = self.within(&key, scope)?.into_owned();
@@ -211,16 +212,15 @@ impl<'m> Lowering<'m> {
         let members = model.bodies[*family].members.iter();
         let joints = members.map(|at| model.hung[*at].map(|joint| &model.joints[joint]));
         let joints: Option<Vec<_>> = joints.collect();
-        let Some([first, rest @ ..]) = joints.as_deref() else {
-            return String::new();
-        };
-        if rest.iter().any(|joint| joint.key != first.key) {
-            return String::new();
+        match joints.as_deref() {
+            Some([first, rest @ ..]) if rest.iter().all(|joint| joint.key == first.key) => {
+                let index = if first.indices.is_empty() { "" } else { "[i]" };
+                let names = first.kind.coordinates.iter();
+                let names = names.map(|name| format!(", `{}{index}.{name}`", first.key));
+                names.collect()
+            }
+            _ => String::new(),
         }
-        let index = if first.indices.is_empty() { "" } else { "[i]" };
-        let names = first.kind.coordinates.iter();
-        let names = names.map(|coordinate| format!(", `{}{index}.{coordinate}`", first.key));
-        names.collect()
     }
 
     /// What coordinates the bodies or joints called `name` have, in words.

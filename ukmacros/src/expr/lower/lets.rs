@@ -42,31 +42,27 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Values of the parameters' defaults.
-    pub(super) fn defaults(&mut self) -> Vec<f64> {
-        let mut defaults: Vec<f64> = Vec::new();
+    /// Enters the values of the parameters' defaults, each of which may use those before it.
+    pub(super) fn enter_defaults(&mut self) {
         // The default that the one before had, and the numbers of it that are left.
         let mut shared: Option<(&Rc<Preset>, std::vec::IntoIter<f64>)> = None;
         for element in &self.model.param_elements {
-            self.known_params = defaults.len();
             let Some(preset) = &element.default else {
-                defaults.push(f64::NAN);
+                self.defaults.push(f64::NAN);
                 continue;
             };
             let same = shared.take().filter(|(last, _)| Rc::ptr_eq(last, preset));
             let mut rest = match same {
                 Some((_, rest)) => rest,
-                None => self.preset(preset, &element.name, &defaults).into_iter(),
+                None => self.preset(preset, &element.name).into_iter(),
             };
-            defaults.push(rest.next().unwrap_or(f64::NAN));
+            self.defaults.push(rest.next().unwrap_or(f64::NAN));
             shared = Some((preset, rest));
         }
-        self.known_params = defaults.len();
-        defaults
     }
 
-    /// The numbers that a default gives to all that is declared with it, of which the first is `name`. `known` are those before.
-    fn preset(&mut self, preset: &Preset, name: &str, known: &[f64]) -> Vec<f64> {
+    /// The numbers that a default gives to all that is declared with it, of which the first is `name`.
+    fn preset(&mut self, preset: &Preset, name: &str) -> Vec<f64> {
         let count = preset.shape.iter().product();
         let (scope, loc) = (
             Scope::with(self.model, preset.variables.clone()),
@@ -89,7 +85,7 @@ impl<'m> Lowering<'m> {
             }
         };
         self.measure_parameters(&ids, count);
-        let numbers = eval(&self.graph, &ids, &Point::of_parameters(known));
+        let numbers = eval(&self.graph, &ids, &Point::of_parameters(&self.defaults));
         if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
             self.finite_number(&format!("default of `{name}`"), *wrong, loc);
         }
@@ -112,15 +108,6 @@ impl<'m> Lowering<'m> {
         let Some(indices) = self.indices(&key.indices, scope) else {
             return;
         };
-        let again = match self.lets.get(&name) {
-            None => false,
-            Some(Binding::Family(members)) if !indices.is_empty() => members.contains_key(&indices),
-            Some(_) => true,
-        };
-        let length = match self.lets.get(&name) {
-            Some(Binding::Family(members)) => members.keys().next().map(Vec::len),
-            _ => None,
-        };
         if let LetValue::Function(f) = &binding.value {
             let again = |k: &usize| f.args[..*k].contains(&f.args[*k]);
             if let Some(k) = (0..f.args.len()).find(again) {
@@ -131,13 +118,18 @@ impl<'m> Lowering<'m> {
                 );
             }
         }
-        let taken = match self.model.free(&key.name) {
-            Err(reason) => Some(reason),
-            Ok(()) if again => Some(format!("`{name}` is declared twice; names must be unique")),
-            Ok(()) if length.is_some_and(|n| n != indices.len()) => Some(format!(
-                "`{name}` is declared with different numbers of indices; rename one"
-            )),
-            Ok(()) => None,
+        let taken = match (self.model.free(&key.name), self.lets.get(&name)) {
+            (Err(reason), _) => Some(reason),
+            (Ok(()), None) => None,
+            (Ok(()), Some(Binding::Family(members)))
+                if !indices.is_empty() && !members.contains_key(&indices) =>
+            {
+                let other = members.keys().any(|known| known.len() != indices.len());
+                other.then(|| {
+                    format!("`{name}` is declared with different numbers of indices; rename one")
+                })
+            }
+            _ => Some(format!("`{name}` is declared twice; names must be unique")),
         };
         if let Some(reason) = taken {
             self.diag.error(key.loc, reason);

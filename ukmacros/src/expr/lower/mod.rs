@@ -31,7 +31,7 @@ use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{LOADS, Model, Scope, uses};
 use crate::parse::{Applied, Block, Declaration, Entry, Expr, Function, MassEntry};
-use array::{Value, describe};
+use array::Value;
 use bodies::Declared;
 use constraints::Names;
 use drawing::Between;
@@ -100,13 +100,13 @@ fn lower_with<'m>(
         lets: HashMap::new(),
         unfinished: HashSet::new(),
         bodies: Vec::new(),
+        pending: Vec::new(),
         written: false,
         active: Vec::new(),
         depth: 0,
         outermost: None,
         oversized: false,
         defaults: Vec::new(),
-        known_params: 0,
         hints: Map::default(),
         unknown: HashSet::new(),
         results: HashMap::new(),
@@ -142,6 +142,8 @@ struct Lowering<'m> {
     unfinished: HashSet<String>,
     /// By their place in [`Model::body_elements`]; nothing for those in error.
     bodies: Vec<Option<Declared>>,
+    /// The positions of those whose frames are being made.
+    pending: Vec<usize>,
     /// A text of this compiler's own is being lowered, in which functions have the meaning that they have here.
     written: bool,
     /// Functions being applied, against recursion.
@@ -152,10 +154,8 @@ struct Lowering<'m> {
     outermost: Option<Loc>,
     /// An array that is too long was reported.
     oversized: bool,
-    /// Defaults of the parameters, once they are known.
+    /// Defaults of the parameters that have theirs: those a default may use.
     defaults: Vec<f64>,
-    /// Parameters whose default is known: those a default may use.
-    known_params: usize,
     hints: Map<Id, String>,
     /// Names and functions that were reported to be unknown.
     unknown: HashSet<String>,
@@ -197,20 +197,20 @@ impl<'m> Env<'m> {
 impl<'m> Lowering<'m> {
     fn run(&mut self, decl: &Declaration) -> System {
         let top = Scope::new(self.model);
+        let declared = |section: &str| decl.sections.contains_key(section);
         let constants = self.constants(&top);
-        let defaults = self.defaults();
-        self.defaults.clone_from(&defaults);
+        self.enter_defaults();
         self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 
-        let of_bodies = self.of_bodies(decl, &top, &defaults);
+        let of_bodies = self.of_bodies(decl, &top);
         let mut mass = self.mass(decl, &top);
         // Parts may have either.
-        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic)
+        if let (true, Some(kinetic)) = (declared("mass"), decl.sections.get("kinetic"))
             && self.model.part_families.is_empty()
         {
             self.diag.error(
-                kinetic.keyword.span(),
+                kinetic.span(),
                 "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
             );
         }
@@ -218,11 +218,9 @@ impl<'m> Lowering<'m> {
         let acting = self.acting(decl, &top);
         let mut terms = of_bodies.potential;
         terms.extend(&acting.potential);
-        if let Some(section) = &decl.potential {
-            terms.extend(self.terms_of(&section.blocks, &top, Place::Potential));
-        }
+        terms.extend(self.terms_of(&decl.potential, &top, Place::Potential));
         let potential =
-            (decl.potential.is_some() || !terms.is_empty()).then(|| self.graph.sum(&terms));
+            (declared("potential") || !terms.is_empty()).then(|| self.graph.sum(&terms));
         let mut force = BTreeMap::new();
         top.unroll(&decl.force, self.diag, &mut |entry, scope| {
             self.entry(entry, &Env::new(scope, Place::Force), &mut force);
@@ -234,8 +232,7 @@ impl<'m> Lowering<'m> {
         // Behind the constraints if it may use their reactions.
         let late = LOADS.iter().any(|name| uses(decl, name));
         let forces = |lowering: &mut Self| {
-            let section = decl.nonideal.as_ref();
-            section.map(|s| lowering.applied(&s.blocks, &top))
+            declared("nonideal").then(|| lowering.applied(&decl.nonideal, &top))
         };
         let early = (!late).then(|| forces(self));
         self.constraints = of_bodies.units;
@@ -262,7 +259,7 @@ impl<'m> Lowering<'m> {
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
-            defaults,
+            defaults: std::mem::take(&mut self.defaults),
             units: Vec::new(),
             efforts: Vec::new(),
             mass,
@@ -330,8 +327,8 @@ impl<'m> Lowering<'m> {
             let total = self.total_of(&values);
             mass.entry((*i, *i)).or_insert((total, *loc)).0 = total;
         }
-        let section = decl.kinetic.as_ref();
-        let loc = section.map(|s| s.keyword.span().into());
+        let keyword = decl.sections.get("kinetic");
+        let loc = keyword.map(|keyword| keyword.span().into());
         let loc = loc.or(of_bodies.changing)?;
         let mut terms = of_bodies.turning.clone();
         for ((i, j), (m, declared)) in std::mem::take(mass) {
@@ -344,9 +341,7 @@ impl<'m> Lowering<'m> {
             let term = self.graph.product(&[(m, 1), (v[0], 1), (v[1], 1)]);
             terms.push((if i == j { 0.5 } else { 1.0 }, term));
         }
-        if let Some(section) = section {
-            terms.extend(self.terms_of(&section.blocks, top, Place::Kinetic));
-        }
+        terms.extend(self.terms_of(&decl.kinetic, top, Place::Kinetic));
         Some((self.graph.sum(&terms), loc))
     }
 
@@ -356,11 +351,9 @@ impl<'m> Lowering<'m> {
         top.unroll(&decl.forces, self.diag, &mut |e, scope| {
             self.acts(e, &Env::new(scope, Place::Force), &mut out);
         });
-        if let Some(section) = &decl.dissipation {
-            for (_, id) in self.terms_of(&section.blocks, top, Place::Force) {
-                let minus = self.graph.constant(-1.0);
-                self.push(id, minus, &mut out);
-            }
+        for (_, id) in self.terms_of(&decl.dissipation, top, Place::Force) {
+            let minus = self.graph.constant(-1.0);
+            self.push(id, minus, &mut out);
         }
         out
     }
@@ -368,14 +361,12 @@ impl<'m> Lowering<'m> {
     /// The lower triangle of M.
     fn mass(&mut self, decl: &Declaration, top: &Scope<'m>) -> BTreeMap<(usize, usize), (Id, Loc)> {
         let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
-        if let Some(section) = &decl.mass {
-            top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
-                for (place, value) in self.mass_entry(entry, scope) {
-                    let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
-                    entries.0.push(value);
-                }
-            });
-        }
+        top.unroll(&decl.mass, self.diag, &mut |entry, scope| {
+            for (place, value) in self.mass_entry(entry, scope) {
+                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
+                entries.0.push(value);
+            }
+        });
         let mass = mass.into_iter();
         mass.map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
             .collect()
@@ -426,13 +417,7 @@ impl<'m> Lowering<'m> {
         {
             return vec![*id; shape.iter().product()];
         }
-        if !value.is_error() && value.shape() != shape {
-            let (expected, found) = (describe(shape), describe(value.shape()));
-            self.diag
-                .error(e.loc, format!("expected {expected}, found {found}"));
-            return Vec::new();
-        }
-        value.entries().to_vec()
+        self.of_shape(value, shape, e.loc).unwrap_or_default()
     }
 
     /// c, by coordinate.

@@ -1,6 +1,7 @@
 //! Names, members, and what may stand where.
 
 use super::array::{MAX_ENTRIES, Value, describe};
+use super::bodies::Frame;
 use super::{Binding, Env, Lowering, NoValue, Place};
 use crate::diag::{Diagnostics, Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
@@ -15,21 +16,17 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         let shown = format!("`{text}`");
         let argument = env.args.iter().rev().find(|(n, _)| *n == text);
-        if let Some((_, value)) = argument {
-            let value = value.clone();
-            return self.part(value, &shown, indices, env);
-        }
-        if let Some(i) = env.scope.lookup(&text) {
+        let value = match (argument, env.scope.lookup(&text)) {
+            (Some((_, value)), _) => value.clone(),
             #[allow(
                 clippy::cast_precision_loss,
                 reason = "an integer in a formula is a number"
             )]
-            let value = Value::Scalar(self.graph.constant(i as f64));
-            return self.part(value, &shown, indices, env);
-        }
-        let value = match text.as_str() {
-            "t" => self.allowed(Symbol::Time, name.span(), env),
-            "PI" => Value::Scalar(self.graph.constant(std::f64::consts::PI)),
+            (None, Some(i)) => Value::Scalar(self.graph.constant(i as f64)),
+            (None, None) if text == "t" => self.allowed(Symbol::Time, name.span(), env),
+            (None, None) if text == "PI" => {
+                Value::Scalar(self.graph.constant(std::f64::consts::PI))
+            }
             _ => return self.declared(name, indices, env),
         };
         self.part(value, &shown, indices, env)
@@ -80,7 +77,7 @@ impl<'m> Lowering<'m> {
                     name.span(),
                     format!("`{text}` is a function; call it: `{text}(…)`"),
                 ),
-                None if text == "ground" && indices.is_empty() => Self::ground(),
+                None if text == "ground" && indices.is_empty() => Value::Body(Frame::ground()),
                 None => self.unknown(name, env),
             },
         }
@@ -177,26 +174,19 @@ impl<'m> Lowering<'m> {
         if !self.unknown.insert(text.clone()) {
             return Value::Error;
         }
-        match self.results.get(&text) {
-            Some(NoValue::Constraint) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"),
-                );
-            }
-            Some(NoValue::Output) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is an output, which no expression can use; declare its value by `let`"),
-                );
-            }
-            Some(NoValue::Integral) => {
-                return self.error(
-                    name.span(),
-                    format!("`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"),
-                );
-            }
-            None => {}
+        if let Some(result) = self.results.get(&text) {
+            let message = match result {
+                NoValue::Constraint => format!(
+                    "`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"
+                ),
+                NoValue::Output => format!(
+                    "`{text}` is an output, which no expression can use; declare its value by `let`"
+                ),
+                NoValue::Integral => format!(
+                    "`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"
+                ),
+            };
+            return self.error(name.span(), message);
         }
         let names = self.model.names.keys().chain(self.lets.keys());
         let names = names.map(String::as_str);
@@ -263,6 +253,7 @@ impl<'m> Lowering<'m> {
             name,
             indices,
             fields: vec![(field.clone(), Vec::new())],
+            measure: None,
             loc: base.loc.to(field.span().into()),
         };
         let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
@@ -290,7 +281,7 @@ impl<'m> Lowering<'m> {
         let id = self.graph.symbol(symbol);
         if env.place == Place::Default
             && let Symbol::Param(i) = symbol
-            && i >= self.known_params
+            && i >= self.defaults.len()
         {
             return self.error(span, "a default may use parameters declared above it only");
         }

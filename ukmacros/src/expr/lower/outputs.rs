@@ -6,14 +6,14 @@ use super::units::Measured;
 use super::{Env, Lowering, NoValue, Place};
 use crate::expr::graph::Id;
 use crate::model::Scope;
-use crate::parse::{Block, Measure, Output};
+use crate::parse::{Block, Entry, Measure};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
 
 impl<'m> Lowering<'m> {
     /// The `value` of an output in the unit that it is declared with.
-    fn in_unit(&mut self, output: &Output, result: NoValue, value: Id) -> Id {
-        let Some(Measure { unit, .. }) = &output.measure else {
+    fn in_unit(&mut self, output: &Entry, result: NoValue, value: Id) -> Id {
+        let Some(Measure { unit, .. }) = &output.key.measure else {
             return value;
         };
         let of = Measured::known(unit.dimension(), true);
@@ -35,7 +35,7 @@ impl<'m> Lowering<'m> {
     /// Outputs or integrals.
     pub(super) fn reported(
         &mut self,
-        blocks: &[Block<Output>],
+        blocks: &[Block<Entry>],
         result: NoValue,
         top: &Scope<'m>,
         names: &mut Names,
@@ -81,7 +81,7 @@ impl<'m> Lowering<'m> {
                 out.push(OutputValue {
                     item: item.clone(),
                     docs: output.docs.clone(),
-                    unit: output.measure.as_ref().map(|m| m.unit.to_string()),
+                    unit: key.measure.as_ref().map(|m| m.unit.to_string()),
                     value,
                 });
             }

@@ -3,8 +3,7 @@
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
 use super::array::{Value, describe};
-use super::bodies::Frame;
-use super::reactions::{Load, Pushed, Turned};
+use super::reactions::Load;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
@@ -181,7 +180,8 @@ pub(super) struct Joint {
     pub(super) rows: Value,
     /// As many as there are rows; none where the only row goes by the name of the joint.
     pub(super) names: Vec<&'static str>,
-    pub(super) load: Load,
+    /// Where it is between bodies.
+    pub(super) load: Option<Load>,
 }
 
 /// How all that acts is written.
@@ -229,27 +229,19 @@ impl<'m> Lowering<'m> {
     }
 
     /// How the load of a joint with these arguments is read.
-    fn load(&self, inner: &Env<'m>) -> Load {
+    fn load(&self, inner: &Env<'m>) -> Option<Load> {
         let given = |name: &str| inner.args.iter().find(|(n, _)| n == name);
         let frame = |name: &str| match &given(name)?.1 {
             Value::Point(point) => Some(point.body.clone()),
             Value::Body(body) => Some(body.clone()),
             _ => None,
         };
-        let g = &self.graph;
-        if let Some((_, Value::Point(q))) = given("q") {
-            let (first, about) = (frame("p"), q.place.entries().to_vec());
-            return Load {
-                force: Pushed::between(first.as_deref(), &q.body, g),
-                moment: Turned::between(first.as_deref(), &q.body, about, g),
-            };
-        }
-        let (first, second) = (frame("a"), frame("b"));
-        let turned = |second: Rc<Frame>| Turned::between(first.as_deref(), &second, Vec::new(), g);
-        Load {
-            force: None,
-            moment: second.and_then(turned),
-        }
+        let (first, second, at) = match given("q") {
+            Some((_, Value::Point(q))) => (frame("p"), frame("q")?, Some(&q.place)),
+            _ => (frame("a"), frame("b")?, None),
+        };
+        let at = at.map(|place| place.entries().to_vec());
+        Load::between(first.as_deref(), &second, at, &self.graph)
     }
 
     /// Enters what an entry of `forces` means.
@@ -315,17 +307,13 @@ impl<'m> Lowering<'m> {
                     self.written(velocity, e.loc, &inner),
                     self.written(force, e.loc, &inner),
                 );
-                if force.is_error() || velocity.is_error() {
+                if velocity.is_error() {
                     return;
                 }
-                if force.shape() != velocity.shape() {
-                    let (expected, found) = (describe(velocity.shape()), describe(force.shape()));
-                    let last = args.last().map_or(e.loc, |a| a.loc);
-                    self.error(last, format!("expected {expected}, found {found}"));
-                    return;
-                }
-                for (v, f) in velocity.entries().iter().zip(force.entries()) {
-                    self.push(*v, *f, out);
+                let last = args.last().map_or(e.loc, |a| a.loc);
+                let force = self.of_shape(&force, velocity.shape(), last);
+                for (v, f) in velocity.entries().iter().zip(force.unwrap_or_default()) {
+                    self.push(*v, f, out);
                 }
             }
         }
@@ -434,11 +422,7 @@ impl<'m> Lowering<'m> {
             return None;
         };
         let dimension = dimension.unwrap_or(2);
-        let mut inner = Env {
-            scope: Scope::new(self.model),
-            args: Vec::new(),
-            place: Place::Let,
-        };
+        let mut inner = Env::new(&Scope::new(self.model), Place::Let);
         let mut sound = true;
         for (k, arg) in part.args.iter().enumerate() {
             let value = match values.get(k) {
@@ -484,15 +468,11 @@ impl<'m> Lowering<'m> {
             Takes::Direction | Takes::Force => {
                 (value.shape() == [dimension], describe(&[dimension]))
             }
-            Takes::Number | Takes::Length => (
+            Takes::Moment if !flat => (value.shape() == [3], describe(&[3])),
+            Takes::Number | Takes::Length | Takes::Moment => (
                 value.shape().is_empty() && !matches!(value, Value::Body(_)),
                 describe(&[]),
             ),
-            Takes::Moment if flat => (
-                value.shape().is_empty() && !matches!(value, Value::Body(_)),
-                describe(&[]),
-            ),
-            Takes::Moment => (value.shape() == [3], describe(&[3])),
             Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
         };
         if !fits {

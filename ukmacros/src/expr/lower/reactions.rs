@@ -20,69 +20,43 @@ pub(super) struct Known {
     shape: Vec<usize>,
     /// What a joint of several rows calls them.
     names: Vec<&'static str>,
-    load: Load,
+    /// Of a joint between bodies.
+    load: Option<Load>,
 }
 
 /// Where the load of a joint on its second body is read.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Load {
-    /// Of a joint between points.
-    pub(super) force: Option<Pushed>,
-    /// Of any joint.
-    pub(super) moment: Option<Turned>,
-}
-
-/// Where the moment of a joint on its second body is read.
-#[derive(Clone)]
-pub(super) struct Turned {
-    /// As of [`Pushed`].
-    centre: Vec<usize>,
-    sign: f64,
-    /// The angle of the body, or its quaternion, by position; none of a body whose orientation follows from other coordinates.
-    orientation: Vec<usize>,
-    /// The point about which the moment is taken, in axes of the ground; none where there is no force.
-    about: Vec<Id>,
-}
-
-/// Where the force of a joint on its second body is read.
-#[derive(Clone)]
-pub(super) struct Pushed {
     /// Coordinates of a centre of mass, by position; none of a body whose place follows from other coordinates.
     centre: Vec<usize>,
-    /// −1 where that is the first body's, as the second is the ground.
+    /// The angle of the body, or its quaternion, by position; none of a body whose orientation follows from other coordinates.
+    orientation: Vec<usize>,
+    /// −1 where these are the first body's, as the second is the ground.
     sign: f64,
+    /// The point that the force acts at, and about which the moment is taken, in axes of the ground; none where there is no force.
+    at: Option<Vec<Id>>,
 }
 
-impl Pushed {
-    /// Of a joint between points of `first` and `second`, unless both are of the ground.
-    pub(super) fn between(first: Option<&Frame>, second: &Frame, g: &Graph) -> Option<Self> {
-        let of = |frame: &Frame, sign: f64| {
-            let centre = coordinates(&frame.moving.as_ref()?.place, g);
-            Some(Pushed { centre, sign })
-        };
-        of(second, 1.0).or_else(|| of(first?, -1.0))
-    }
-}
-
-impl Turned {
-    /// The same of the moment about the point that is at `about`, or of a pure moment.
+impl Load {
+    /// Of a joint of `first` and `second`, unless both are of the ground.
     pub(super) fn between(
         first: Option<&Frame>,
         second: &Frame,
-        about: Vec<Id>,
+        at: Option<Vec<Id>>,
         g: &Graph,
     ) -> Option<Self> {
-        let Pushed { centre, sign } = Pushed::between(first, second, g)?;
-        let turned = if sign > 0.0 { Some(second) } else { first };
-        let orientation = match &turned?.moving.as_ref()?.orientation {
-            Orientation::Own(own) => coordinates(own, g),
-            Orientation::Hung(_) => Vec::new(),
+        let (of, sign) = match &second.moving {
+            Some(moving) => (moving, 1.0),
+            None => (first?.moving.as_ref()?, -1.0),
         };
-        Some(Turned {
-            centre,
+        Some(Load {
+            centre: coordinates(&of.place, g),
+            orientation: match &of.orientation {
+                Orientation::Own(own) => coordinates(own, g),
+                Orientation::Hung(_) => Vec::new(),
+            },
             sign,
-            orientation,
-            about,
+            at,
         })
     }
 }
@@ -106,7 +80,7 @@ impl<'m> Lowering<'m> {
         first: usize,
         shape: &[usize],
         names: Vec<&'static str>,
-        load: Load,
+        load: Option<Load>,
     ) {
         let known = Known {
             rows: first..self.constraints.len(),
@@ -249,7 +223,8 @@ impl<'m> Lowering<'m> {
         // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
-        let Some(Pushed { centre, sign }) = load.force.clone() else {
+        let load = load.clone().filter(|load| load.at.is_some());
+        let Some(Load { centre, sign, .. }) = load else {
             let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
@@ -289,31 +264,30 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let rows = row.map_or_else(|| rows.clone(), |row| row..row + 1);
-        let Some(turned) = load.moment.clone() else {
+        let Some(load) = load.clone() else {
             let message = format!(
                 "`{text}` is no joint between bodies; its multipliers are `reaction({text})`"
             );
             return self.error(arg.loc, message);
         };
-        if turned.orientation.is_empty() {
+        if load.orientation.is_empty() {
             let message = format!(
                 "the bodies of `{text}` have no coordinates of their own orientation; take the multipliers of its rows by `reaction`"
             );
             return self.error(arg.loc, message);
         }
-        let Turned { centre, sign, .. } = turned;
-        let generalised = self.generalised(&turned.orientation, sign, &rows);
-        let force = self.generalised(&centre, -sign, &rows);
+        let generalised = self.generalised(&load.orientation, load.sign, &rows);
+        let force = self.generalised(&load.centre, -load.sign, &rows);
         let g = &mut self.graph;
         let mut components = match generalised[..] {
             [moment] => vec![moment],
-            _ => of_quaternion(&turned.orientation, &generalised, g),
+            _ => of_quaternion(&load.orientation, &generalised, g),
         };
         // About the point in place of the centre of mass.
-        if !turned.about.is_empty() {
-            let centre = centre.iter().map(|i| g.symbol(Symbol::Coord(*i)));
+        if let Some(at) = load.at {
+            let centre = load.centre.iter().map(|i| g.symbol(Symbol::Coord(*i)));
             let centre: Vec<Id> = centre.collect();
-            let arm = turned.about.iter().zip(centre);
+            let arm = at.iter().zip(centre);
             let arm = Value::vector(arm.map(|(at, centre)| g.sub(*at, centre)).collect());
             let moved = cross(g, &arm, &Value::vector(force)).unwrap_or(Value::Error);
             let pairs = components.iter_mut().zip(moved.entries());

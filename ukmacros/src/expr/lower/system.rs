@@ -91,20 +91,17 @@ pub(crate) struct ConstraintRef {
     pub(crate) shown: String,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
-    /// What a joint calls its row.
+    /// What a joint calls its row, or what the row is that keeps the quaternion of a body or a joint of the tree a unit.
     pub(crate) row: Option<&'static str>,
-    /// The body whose orientation is kept normal by it, as written.
-    pub(crate) unit_of: Option<String>,
 }
 
 impl ConstraintRef {
     /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
         let whole = self.whole();
-        match (&self.unit_of, self.row) {
-            (Some(body), _) => format!("{body}.unit"),
-            (None, Some(row)) => format!("{whole}.{row}"),
-            (None, None) => indexed(whole, &self.components),
+        match self.row {
+            Some(row) => format!("{whole}.{row}"),
+            None => indexed(whole, &self.components),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::expr::diff::Derivative;
 use crate::expr::eval::eval;
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id, Symbol};
-use crate::model::{Scope, Step};
+use crate::model::{Joint, Scope, Step};
 use crate::parse::{Expr, ExprKind};
 use std::rc::Rc;
 use ukunits::Dimension;
@@ -166,10 +166,7 @@ impl<'m> Lowering<'m> {
         let dimension = centre.len();
         let carrier = match joint.parent {
             Some(parent) => self.bodies[parent].as_ref()?.frame.clone()?,
-            None => match Self::ground() {
-                Value::Body(ground) => ground,
-                _ => return None,
-            },
+            None => Frame::ground(),
         };
         let itself = Rc::new(Frame {
             name: body.name.clone(),
@@ -192,10 +189,7 @@ impl<'m> Lowering<'m> {
             let v = self.value(&parts[1], &env);
             self.expect_all(&v, Dimension::LENGTH, "a place", parts[1].loc);
             let v = self.of_shape(&v, &[dimension], parts[1].loc)?;
-            values.push(Value::Point(Rc::new(Point {
-                body: body.clone(),
-                place: Value::vector(v),
-            })));
+            values.push(Point::of(body.clone(), Value::vector(v)));
         }
         let (from, reference) = (values[0].entries().to_vec(), values[1].entries().to_vec());
         values.extend(joint.args[2..].iter().map(|arg| self.argument(arg, &env)));
@@ -211,22 +205,9 @@ impl<'m> Lowering<'m> {
         moved.shift(&arm, &mut self.graph);
         let mut next = joint.first;
         for step in joint.kind.steps {
-            self.step(
-                step,
-                &mut next,
-                &mut moved,
-                &inner,
-                joint.call.span().into(),
-                &joint.args,
-            )?;
+            self.step(step, &mut next, &mut moved, &inner, joint)?;
         }
-        self.note(
-            joint.kind.name,
-            &[Value::Point(Rc::new(Point {
-                body: carrier.clone(),
-                place: from_place,
-            }))],
-        );
+        self.note(joint.kind.name, &[Point::of(carrier, from_place)]);
         let name = &body.name;
         self.hint(&format!("{name}.axes"), &moved.axes);
         self.hint(&format!("{name}.spin"), &moved.omega);
@@ -245,16 +226,16 @@ impl<'m> Lowering<'m> {
         })
     }
 
-    /// One step of a joint with these arguments, the next coordinate of which is at the position `next` in q.
+    /// One step of a `joint`, the next coordinate of which is at the position `next` in q.
     fn step(
         &mut self,
         step: &Step,
         next: &mut usize,
         moved: &mut Moved,
         inner: &Env<'m>,
-        loc: Loc,
-        args: &[Expr],
+        joint: &Joint,
     ) -> Option<()> {
+        let loc = joint.call.span().into();
         let mut coordinate = |g: &mut Graph| {
             *next += 1;
             g.symbol(Symbol::Coord(*next - 1))
@@ -292,7 +273,7 @@ impl<'m> Lowering<'m> {
             }
             Step::Fix(matrix) => {
                 let turn = self.sound(matrix, loc, inner)?;
-                self.rotates(&turn, args)?;
+                self.rotates(&turn, &joint.args)?;
                 if turn.shape() == [2, 2] {
                     let angle = self.sound("angle", loc, inner)?.entries()[0];
                     moved.angle = self.graph.sum(&[(1.0, moved.angle), (1.0, angle)]);

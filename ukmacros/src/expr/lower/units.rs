@@ -20,11 +20,8 @@ pub(super) enum Measured {
     /// A number that is made of numbers: of no dimension as a factor, of any as a term.
     Number,
     Unknown,
-    Known {
-        dimension: Dimension,
-        /// A unit that is declared is among what it follows from.
-        declared: bool,
-    },
+    /// Its dimension, and whether a unit that is declared is among what it follows from.
+    Known(Dimension, bool),
 }
 
 use Measured::{Known, Number, Unknown};
@@ -93,7 +90,7 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
     });
     system.units = params.collect();
     let efforts = (0..system.constraints.len()).map(|row| match rows.get(row) {
-        Some(Known { dimension, .. }) => dimension.effort(),
+        Some(Known(dimension, _)) => dimension.effort(),
         _ => String::new(),
     });
     system.efforts = efforts.collect();
@@ -110,22 +107,17 @@ fn written(e: &Expr, dimension: Dimension) -> Option<String> {
         ExprKind::Quantity(_, unit) => {
             (unit.dimension().without_angle() == dimension).then(|| unit.si())
         }
-        ExprKind::Neg(inner) | ExprKind::Group(inner) => written(inner, dimension),
-        ExprKind::Chain(first, rest) => {
-            let mut operands = std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e));
-            operands.find_map(|e| written(e, dimension))
+        ExprKind::Neg(_) | ExprKind::Group(_) | ExprKind::Chain(..) | ExprKind::Vector(_) => {
+            let mut parts = e.parts().into_iter();
+            parts.find_map(|part| written(part, dimension))
         }
-        ExprKind::Vector(components) => components.iter().find_map(|e| written(e, dimension)),
         _ => None,
     }
 }
 
 impl Measured {
     pub(super) fn known(dimension: Dimension, declared: bool) -> Self {
-        Known {
-            dimension: dimension.without_angle(),
-            declared,
-        }
+        Known(dimension.without_angle(), declared)
     }
 
     /// What the language knows by itself.
@@ -136,27 +128,14 @@ impl Measured {
     pub(super) fn times(self, other: Measured) -> Self {
         match (self, other) {
             (Number, known) | (known, Number) => known,
-            (
-                Known {
-                    dimension,
-                    declared,
-                },
-                Known {
-                    dimension: by,
-                    declared: too,
-                },
-            ) => Measured::known(dimension.times(by), declared || too),
+            (Known(a, declared), Known(b, too)) => Measured::known(a.times(b), declared || too),
             _ => Unknown,
         }
     }
 
     /// The unit in SI of a number of it, whose default is written as this.
     pub(super) fn unit(self, default: &Expr) -> String {
-        let Known {
-            dimension,
-            declared: true,
-        } = self
-        else {
+        let Known(dimension, true) = self else {
             return String::new();
         };
         written(default, dimension).unwrap_or_else(|| match dimension {
@@ -167,10 +146,7 @@ impl Measured {
 
     fn power(self, exponent: f64) -> Self {
         match self {
-            Known {
-                dimension,
-                declared,
-            } => dimension
+            Known(dimension, declared) => dimension
                 .power(exponent)
                 .map_or(Unknown, |d| Measured::known(d, declared)),
             other => other,
@@ -189,7 +165,7 @@ impl Measured {
     /// What of it is declared.
     pub(super) fn declared(self) -> Self {
         match self {
-            Known { declared: true, .. } => self,
+            Known(_, true) => self,
             _ => Unknown,
         }
     }
@@ -197,18 +173,9 @@ impl Measured {
     /// What both are, if they may be one; both, if not.
     pub(super) fn with(self, other: Measured) -> Result<Self, (Dimension, Dimension)> {
         match (self, other) {
-            (Number | Unknown, Known { .. }) | (Number, Unknown) => Ok(other),
+            (Number | Unknown, Known(..)) | (Number, Unknown) => Ok(other),
             (_, Number | Unknown) => Ok(self),
-            (
-                Known {
-                    dimension: a,
-                    declared,
-                },
-                Known {
-                    dimension: b,
-                    declared: too,
-                },
-            ) => match (a == b, declared || too) {
+            (Known(a, declared), Known(b, too)) => match (a == b, declared || too) {
                 (true, either) => Ok(Measured::known(a, either)),
                 (false, true) => Err((a, b)),
                 (false, false) => Ok(Unknown),
@@ -333,11 +300,10 @@ impl Dimensions<'_> {
 /// What a function of a plain number gives.
 fn plain(func: Func, argument: Measured) -> Result<Measured, Clash> {
     match argument {
-        Known {
-            dimension,
-            declared: true,
-        } if dimension != Dimension::NUMBER => Err(Clash::Argument(func, dimension)),
-        Known { declared, .. } => Ok(Measured::known(Dimension::NUMBER, declared)),
+        Known(dimension, true) if dimension != Dimension::NUMBER => {
+            Err(Clash::Argument(func, dimension))
+        }
+        Known(_, declared) => Ok(Measured::known(Dimension::NUMBER, declared)),
         other => Ok(other),
     }
 }

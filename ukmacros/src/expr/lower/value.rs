@@ -19,16 +19,7 @@ impl<'m> Lowering<'m> {
     /// A number, unless it is in error.
     pub(super) fn number(&mut self, e: &Expr, env: &Env<'m>) -> Option<Id> {
         let value = self.value(e, env);
-        match value {
-            Value::Scalar(id) => Some(id),
-            Value::Array(_) | Value::Body(_) | Value::Point(_) | Value::Joint(_) => {
-                let found = describe(value.shape());
-                self.diag
-                    .error(e.loc, format!("expected a number, found {found}"));
-                None
-            }
-            Value::Error => None,
-        }
+        self.of_shape(&value, &[], e.loc)?.first().copied()
     }
 
     pub(super) fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> Value {
