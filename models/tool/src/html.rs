@@ -197,27 +197,9 @@ pub fn embedded(file: &str, text: &str, caption: impl Render) -> Markup {
     }
 }
 
-/// A part of a page, with a heading that is numbered and a link at the top of the page; where its body is empty it is not written at all.
-#[derive(Debug, Clone)]
-pub struct Section {
-    id: &'static str,
-    link: &'static str,
-    title: &'static str,
-    body: Markup,
-}
-
-impl Section {
-    /// A section with its anchor, the text of its link, its heading and what follows.
-    #[must_use]
-    pub fn new(id: &'static str, link: &'static str, title: &'static str, body: Markup) -> Self {
-        Section {
-            id,
-            link,
-            title,
-            body,
-        }
-    }
-}
+/// A part of a page: its anchor, the text of the link to it at the top of the page, its heading, which is numbered; and what follows. Where
+/// that is empty the part is not written at all.
+pub type Section = ([&'static str; 3], Markup);
 
 /// A page of numbered sections that are linked at its top, in the style of reports.
 #[derive(Debug, Clone)]
@@ -238,17 +220,17 @@ impl Page<'_> {
     /// Writes the page as the text of an HTML file that needs nothing but itself and the files it names.
     #[must_use]
     pub fn render(&self) -> String {
-        let shown = || self.sections.iter().filter(|s| !s.body.0.is_empty());
+        let shown = || self.sections.iter().filter(|(_, body)| !body.0.is_empty());
         let body = html! {
             h1 { (self.title) }
             (self.head)
             nav {
-                @for section in shown() { a href=(format!("#{}", section.id)) { (section.link) } " " }
+                @for ([id, link, _], _) in shown() { a href=(format!("#{id}")) { (link) } " " }
                 @for (file, text) in self.files { a href=(file) { (text) } " " }
             }
-            @for (k, section) in shown().enumerate() {
-                h2 id=(section.id) { (k + 1) ". " (section.title) }
-                (section.body)
+            @for (k, ([id, _, title], body)) in shown().enumerate() {
+                h2 id=(id) { (k + 1) ". " (title) }
+                (body)
             }
             (self.foot)
         };
@@ -330,7 +312,7 @@ mod tests {
 
     #[test]
     fn a_page_links_what_it_has() {
-        let section = |id, body| Section::new(id, id, "Title", body);
+        let section = |id, body| ([id, id, "Title"], body);
         let page = Page {
             title: "A & B",
             head: html! {},

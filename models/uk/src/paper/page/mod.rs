@@ -4,31 +4,29 @@ mod chain;
 mod fish;
 
 use maud::{Markup, html};
-use uktool::html::{Cell, Page, Section, fixed, power_of_ten, table};
+use uktool::html::{Cell, Page, fixed, power_of_ten, table};
 
 use super::Paper;
 use super::claims::{STANDARD, Verdict};
 use super::motion::RunRow;
 
 pub(super) fn html(paper: &Paper) -> String {
-    let section = Section::new;
     let page = Page {
         title: "The falling U-chain and the fish robot, recomputed",
         head: head(paper),
         files: &[("paper.json", "All numbers (JSON)")],
         sections: vec![
-            section(
-                "chain",
-                "U-chain",
-                "The falling U-chain",
+            (
+                ["chain", "U-chain", "The falling U-chain"],
                 chain::section(paper),
             ),
-            section("fish", "Fish robot", "The fish robot", fish::section(paper)),
-            section("claims", "Claims", "The paper's claims", claims(paper)),
-            section(
-                "accuracy",
-                "Accuracy and cost",
-                "Accuracy and cost",
+            (
+                ["fish", "Fish robot", "The fish robot"],
+                fish::section(paper),
+            ),
+            (["claims", "Claims", "The paper's claims"], claims(paper)),
+            (
+                ["accuracy", "Accuracy and cost", "Accuracy and cost"],
                 accuracy(paper),
             ),
         ],
