@@ -3,12 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use models::{FourBars, SliderCrank, StartOptions, UChain};
-use ukcore::equations::precise;
 use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
 use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
-use super::{REGULAR, accelerations_imprecise, accelerations_off, off, worse};
+use super::{REGULAR, accelerations_off, exact_accelerations, off, worse};
 use crate::mechanisms::{UChain9, UChain33, UChain65};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
@@ -108,10 +107,9 @@ fn crack<M: Mechanism>(effort: &mut Effort) -> Result<f64, Error> {
         worst = worse(worst, residual.position);
     }
     if let Some(state) = at {
-        worst = worse(
-            worst,
-            accelerations_imprecise(&mechanism, &state, &REGULAR, effort)?,
-        );
+        let expected = exact_accelerations(&mechanism, &state);
+        let then = accelerations_off(&mechanism, &state, &REGULAR, &expected, effort)?;
+        worst = worse(worst, then);
     }
     Ok(worst)
 }
@@ -213,9 +211,7 @@ fn bars_distance(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
     }
     // Taken as on the line, and said so: the couplers are named as redundant. There the equations have another solution, since the
     // linkage may leave the line in other ways.
-    let expected =
-        precise::accelerations(&four, 0.0, &bars(1.0, 0.0, rate).q, &bars(1.0, 0.0, rate).v);
-    let expected = expected.unwrap_or_else(|| vec![f64::NAN; 10]);
+    let expected = exact_accelerations(&four, &bars(1.0, 0.0, rate));
     let on_the_line = accelerations_off(&four, &state, &[], &expected, effort)?;
     Ok(worse(on_the_line, 10.0 * RANK_TOLERANCE))
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use models::{DoublePendulumAngles, Model, Pendulum, UChain};
 use ukcore::{Error, Simulation, State};
 
-use super::{off, worse};
+use super::{end, off, swung, worse};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
@@ -81,18 +81,15 @@ fn in_units(length: f64, mass: f64, time: f64, effort: &mut Effort) -> Result<f6
         l: chain.l * length,
         g: chain.g * length / time / time,
     };
-    let mut ends = Vec::new();
-    for (chain, length, time) in [(chain, 1.0, 1.0), (other, length, time)] {
-        let start = State {
-            q: start.q.iter().map(|q| q * length).collect(),
-            ..start.clone()
-        };
+    let mut end_of = |chain: UChain, length: f64, time: f64| -> Result<Vec<f64>, Error> {
+        let mut start = start.clone();
+        start.q.iter_mut().for_each(|q| *q *= length);
         let simulation = Simulation::new(chain).start(start).tolerance(1e-10);
         let run = effort.run(simulation.max_steps(100_000), 1.5 * time)?;
-        let last = run.last().map_or(Vec::new(), |s| s.q.to_vec());
-        ends.push(last.iter().map(|q| q / length).collect::<Vec<_>>());
-    }
-    Ok(off(&ends[1], &ends[0]))
+        Ok(end(&run).into_iter().map(|q| q / length).collect())
+    };
+    let expected = end_of(chain, 1.0, 1.0)?;
+    Ok(off(&end_of(other, length, time)?, &expected))
 }
 
 fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
@@ -106,7 +103,7 @@ fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
             .start(start)
             .tolerance(1e-11);
         let run = effort.run(simulation.max_steps(100_000), 2.0)?;
-        ends.push(run.last().map_or(Vec::new(), |s| s.q.to_vec()));
+        ends.push(end(&run));
     }
     let difference = ends[1].iter().zip(&ends[0]);
     let difference = difference.map(|(turned, plain)| turned - TAU * turns - plain);
@@ -116,11 +113,9 @@ fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
 fn first_step(step: f64, effort: &mut Effort) -> Result<f64, Error> {
     let pendulum = Pendulum::default();
     let start = pendulum.default_start()?;
-    let simulation = Simulation::new(pendulum.clone()).start(start);
+    let simulation = Simulation::new(pendulum).start(start);
     let run = effort.run(simulation.first_step(step).tolerance(1e-10), 1.0)?;
-    let (angle, _) = pendulum.swing(-FRAC_PI_2, 1.0);
-    let (q, _) = pendulum.at_angle(angle, 0.0);
-    Ok(run.last().map_or(f64::NAN, |last| off(last.q, &q)))
+    Ok(off(&end(&run), &swung(-FRAC_PI_2, 1.0)))
 }
 
 fn short_run(length: f64, effort: &mut Effort) -> Result<f64, Error> {

@@ -38,17 +38,17 @@ pub(crate) fn cases() -> Vec<Case<'static>> {
             measure: &assembly_off,
         },
         jump("jump-place", "jump of a prescribed position, m", &|h, e| {
-            jumping(h, 0.0, 0.0, e)
+            jumping("place", h, e)
         }),
         jump(
             "jump-velocity",
             "jump of a prescribed velocity, m/s",
-            &|u, e| jumping(0.0, u, 0.0, e),
+            &|u, e| jumping("velocity", u, e),
         ),
         jump(
             "jump-acceleration",
             "jump of a prescribed acceleration, m/s²",
-            &|a, e| jumping(0.0, 0.0, a, e),
+            &|a, e| jumping("acceleration", a, e),
         ),
         Case {
             id: "not-finite",
@@ -100,16 +100,15 @@ fn assembly_off(distance: f64, _: &mut Effort) -> Result<f64, Error> {
 }
 
 /// The mass on the spring follows a carriage that changes its motion at t = 1/2.
-fn jumping(
-    place: f64,
-    velocity: f64,
-    acceleration: f64,
-    effort: &mut Effort,
-) -> Result<f64, Error> {
+fn jumping(what: &str, jump: f64, effort: &mut Effort) -> Result<f64, Error> {
     let mut carriage = Carriage::default();
-    carriage.set("place", place)?;
-    carriage.set("velocity", velocity)?;
-    carriage.set("acceleration", acceleration)?;
+    carriage.set(what, jump)?;
+    let Carriage {
+        place,
+        velocity,
+        acceleration,
+        ..
+    } = carriage;
     let until = 1.5;
     let simulation = Simulation::new(carriage).start(State::zeros::<Carriage>());
     let run = effort.run(simulation.tolerance(1e-9).at(vec![until]), until)?;
