@@ -2,7 +2,8 @@
 
 use models::uchain::{TABLE_1, TableRow};
 use models::{Model, StartOptions, UChain};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::json;
 use ukcore::Event;
 use ukcore::simulate::Direction;
 use uktool::command;
@@ -57,20 +58,21 @@ pub(super) struct ChainRow {
     /// Greatest downward pull of gravity and upward pull of the chain compared: (g − peak)/g, in weights of a particle.
     pub(super) pull: f64,
     /// As printed.
-    pub(super) paper: Printed,
+    #[serde(serialize_with = "printed")]
+    pub(super) paper: TableRow,
 }
 
-/// The paper's row.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Printed {
-    /// Greatest fall.
-    pub(super) h_max: f64,
-    /// Its time, s.
-    pub(super) t_max: f64,
-    /// Fall of a free body.
-    pub(super) free_fall: f64,
-    /// Figure with ÿ1.
-    pub(super) figure: u32,
+/// What is printed, without x0, which the row has.
+fn printed<S: Serializer>(row: &TableRow, to: S) -> Result<S::Ok, S::Error> {
+    let TableRow {
+        h_max,
+        t_max,
+        free_fall,
+        figure,
+        ..
+    } = row;
+    json!({ "h_max": h_max, "t_max": t_max, "free_fall": free_fall, "figure": figure })
+        .serialize(to)
 }
 
 /// A run, its numbers and its curves.
@@ -172,12 +174,7 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
         mean_above_g: excess.iter().sum::<f64>() / count,
         part_above_g: excess.iter().filter(|a| **a > 0.0).count() as f64 / count,
         pull: (g - peak) / g,
-        paper: Printed {
-            h_max: printed.h_max,
-            t_max: printed.t_max,
-            free_fall: printed.free_fall,
-            figure: printed.figure,
-        },
+        paper: *printed,
     };
     let snapshots = SNAPSHOTS
         .into_iter()

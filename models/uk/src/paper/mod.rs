@@ -9,15 +9,13 @@ mod motion;
 mod page;
 mod published;
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use clap::Args;
 use models::uchain::{TABLE_1, TableRow};
 use rayon::prelude::*;
 use serde::Serialize;
-use uktool::command;
 use uktool::failure::Failure;
 use uktool::output::{self, Directory};
 use uktool::progress::Progress;
@@ -31,21 +29,8 @@ use motion::RunRow;
 /// a hundredfold until its tip turns.
 const TOLERANCE: f64 = 1e-10;
 
-/// The arguments of `paper`.
-#[derive(Debug, Args)]
-pub(crate) struct PaperArgs {
-    /// Directory to write index.html, paper.json, figures and CSV files to
-    #[arg(long, value_name = "DIR", default_value = OUT, value_parser = command::path)]
-    pub(crate) out: PathBuf,
-}
-
-const OUT: &str = "out/paper";
-
-impl Default for PaperArgs {
-    fn default() -> Self {
-        PaperArgs { out: OUT.into() }
-    }
-}
+/// Where the report goes if nothing is said.
+pub(crate) const OUT: &str = "out/paper";
 
 /// Every number on the page.
 #[derive(Debug, Serialize)]
@@ -77,14 +62,14 @@ struct Results {
     fishes: Vec<Fish>,
 }
 
-/// Computes both cases and writes the report to `args.out`.
+/// Computes both cases and writes the report to the directory `out`.
 ///
 /// # Errors
 /// [`Failure::Failed`] if an integration fails or a file cannot be written; a report that stood there before is then still whole or partly
 /// replaced by files that are each whole, and index.html is written last.
-pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
+pub(crate) fn paper(out: &Path) -> Result<(), Failure> {
     let started = Instant::now();
-    let directory = Directory::create(&args.out)?;
+    let directory = Directory::create(out)?;
     let results = compute()?;
     let uchain: Vec<ChainRow> = results.chains.iter().map(|c| c.row.clone()).collect();
     let fish: Vec<FishRow> = results.fishes.iter().map(|f| f.row.clone()).collect();
@@ -134,29 +119,23 @@ fn compute() -> Result<Results, Failure> {
     };
     let chain = |(start, row): &(&str, &TableRow)| chain::compute(start, row).inspect(|_| note());
     let fish = |gait: &Gait| fish::compute(*gait).inspect(|_| note());
-    let (chains, fishes) = rayon::join(
-        || {
-            starts
-                .par_iter()
-                .with_max_len(1)
-                .map(chain)
-                .collect::<Result<_, _>>()
-        },
-        || {
-            gaits
-                .par_iter()
-                .with_max_len(1)
-                .map(fish)
-                .collect::<Result<_, _>>()
-        },
-    );
+    let (chains, fishes) = rayon::join(|| each(&starts, chain), || each(&gaits, fish));
     progress.finish();
-    let (mut chains, fishes): (Vec<Chain>, Vec<Fish>) = (chains?, fishes?);
+    let (mut chains, fishes) = (chains?, fishes?);
     Ok(Results {
         catenary: chains.remove(0),
         chains,
         fishes,
     })
+}
+
+/// What `compute` makes of each item, one after the other by whoever is free.
+fn each<T: Sync, R: Send>(
+    items: &[T],
+    compute: impl Fn(&T) -> Result<R, Failure> + Sync + Send,
+) -> Result<Vec<R>, Failure> {
+    let items = items.par_iter().with_max_len(1);
+    items.map(compute).collect()
 }
 
 /// What a person at the terminal wants to know at once.
