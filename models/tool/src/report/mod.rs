@@ -30,7 +30,7 @@ use crate::scene::Start;
 use crate::units::Quantity;
 
 use export::Report;
-pub(crate) use truth::{distance, grow, scale, states};
+pub(crate) use truth::{largest, scale, states};
 
 /// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
@@ -221,7 +221,7 @@ fn write_all(directory: &Directory, report: &Report) -> Result<(), Failure> {
         }
     }
     directory.json("report.json", report)?;
-    directory.csv("report.csv", report.studies.iter().flat_map(export::lines))?;
+    directory.csv("report.csv", report.studies.iter().flat_map(export::rows))?;
     directory.write("index.html", page::html(report))
 }
 

@@ -38,9 +38,9 @@ pub(super) struct Truth {
 
 /// The distance of two states.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Distance {
+pub(super) struct Distance {
     /// Largest difference as a part of the size of the coordinate's kind.
-    pub(crate) scaled: f64,
+    pub(super) scaled: f64,
     /// Largest difference, in units of the coordinates.
     pub(super) absolute: f64,
 }
@@ -138,8 +138,7 @@ impl Truth {
 
     /// Largest scaled distance of states at the same times.
     pub(super) fn largest(&self, states: &[Vec<f64>]) -> f64 {
-        let scaled = |(k, state): (usize, &Vec<f64>)| self.errors(k, state).scaled;
-        states.iter().enumerate().map(scaled).fold(0.0, f64::max)
+        largest(states, &self.states, &self.scale)
     }
 
     pub(super) fn end(&self) -> f64 {
@@ -162,7 +161,7 @@ impl Truth {
 }
 
 /// Distance of two (q, q̇) whose coordinates have the sizes `scale`.
-pub(crate) fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
+fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
     let mut distance = Distance {
         scaled: 0.0,
         absolute: 0.0,
@@ -175,8 +174,17 @@ pub(crate) fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
     distance
 }
 
+/// The largest distance of states that belong to each other, in units of the sizes of their coordinates.
+pub(crate) fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
+    let mut largest = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        grow(&mut largest, distance(a, b, scale).scaled);
+    }
+    largest
+}
+
 /// Takes the larger one; what is no number stays.
-pub(crate) fn grow(so_far: &mut f64, value: f64) {
+fn grow(so_far: &mut f64, value: f64) {
     if value.is_nan() || value > *so_far {
         *so_far = value;
     }

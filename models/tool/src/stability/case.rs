@@ -1,5 +1,6 @@
 //! A case: something swept over a range, and how far the results are off at each value.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -38,15 +39,15 @@ impl Effort {
 }
 
 /// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
-pub type Measure<'a> = &'a (dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync);
+pub type Measure<'a> = Box<dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync + 'a>;
 
 /// A case: one thing that is swept, what results are compared with, and what counts as right.
-#[derive(Clone, Serialize)]
+#[derive(Serialize)]
 pub struct Case<'a> {
     /// Name on the command line.
     pub id: &'a str,
     /// What is swept, in what mechanism.
-    pub swept: &'a str,
+    pub swept: Cow<'a, str>,
     /// What the results are compared with.
     pub oracle: &'a str,
     /// Errors up to this are full accuracy.
@@ -341,12 +342,12 @@ mod tests {
     fn values_are_accurate_degraded_wrong_or_refused() {
         let case = Case {
             id: "newton",
-            swept: "a number whose root is sought",
+            swept: "a number whose root is sought".into(),
             oracle: "the root",
             accurate: 1e-12,
             bound: 1e-3,
             sweep: decades(0, 12, 1, 0),
-            measure: &newton,
+            measure: Box::new(newton),
         };
         let row = case
             .row(Interrupt::catch().expect("a handler"), || ())

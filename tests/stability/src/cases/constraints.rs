@@ -14,30 +14,30 @@ pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
         Case {
             id: "rows-scaled",
-            swept: "one row of a double pendulum times s, the other by s",
+            swept: "one row of a double pendulum times s, the other by s".into(),
             oracle: "the rows as they are: accelerations in 31 digits, and the run",
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
-            measure: &rows_scaled,
+            measure: Box::new(rows_scaled),
         },
         Case {
             id: "rows-copied",
-            swept: "rod of a pendulum declared again times s, and by s",
+            swept: "rod of a pendulum declared again times s, and by s".into(),
             oracle: "closed form of the pendulum; the copies are named as redundant",
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
-            measure: &rows_copied,
+            measure: Box::new(rows_copied),
         },
         Case {
             id: "rows-near",
-            swept: "angle between two planes that a particle is held on",
+            swept: "angle between two planes that a particle is held on".into(),
             oracle: "closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance",
             accurate: 1e-12,
             bound: 1e-10,
             sweep: decades(-1, -16, 1, -1),
-            measure: &rows_near,
+            measure: Box::new(rows_near),
         },
     ]
 }

@@ -17,7 +17,7 @@ use uktool::stability::{Case, Effort};
 
 /// All cases, in the order of the table.
 pub fn all() -> Vec<Case<'static>> {
-    [
+    let all = [
         masses::cases(),
         stiff::cases(),
         loops::cases(),
@@ -25,8 +25,8 @@ pub fn all() -> Vec<Case<'static>> {
         starts::cases(),
         numbers::cases(),
         times::cases(),
-    ]
-    .concat()
+    ];
+    all.into_iter().flatten().collect()
 }
 
 /// Largest absolute value; NaN if there is one.

@@ -8,56 +8,54 @@ use crate::mechanisms::{Carriage, Elastic};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
-    let jumps = || decades(-16, 0, 1, -16);
-    let jump = |id, swept, measure| Case {
+    let jump = |id, what: &'static str, swept: &'static str| Case {
         id,
-        swept,
+        swept: swept.into(),
         oracle: "closed form of the mass on its spring",
         accurate: 1e-7,
         bound: 1e-5,
-        sweep: jumps(),
-        measure,
+        sweep: decades(-16, 0, 1, -16),
+        measure: Box::new(move |by, effort| jumping(what, by, effort)),
     };
     vec![
         Case {
             id: "start-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a start",
+            swept: "distance of a U-chain's start from its constraints, m, as a start".into(),
             oracle: "consistent to rounding, and moved by at most 20 times the distance",
             accurate: 1e-13,
             bound: 1e-12,
             sweep: decades(-16, 0, 1, -16),
-            measure: &start_off,
+            measure: Box::new(start_off),
         },
         Case {
             id: "assembly-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a guess to assemble",
+            swept: "distance of a U-chain's start from its constraints, m, as a guess to assemble"
+                .into(),
             oracle: "consistent to rounding, and moved by at most 20 times the distance",
             accurate: 1e-13,
             bound: 1e-12,
             sweep: decades(-16, 1, 1, -16),
-            measure: &assembly_off,
+            measure: Box::new(assembly_off),
         },
-        jump("jump-place", "jump of a prescribed position, m", &|h, e| {
-            jumping("place", h, e)
-        }),
+        jump("jump-place", "place", "jump of a prescribed position, m"),
         jump(
             "jump-velocity",
+            "velocity",
             "jump of a prescribed velocity, m/s",
-            &|u, e| jumping("velocity", u, e),
         ),
         jump(
             "jump-acceleration",
+            "acceleration",
             "jump of a prescribed acceleration, m/s²",
-            &|a, e| jumping("acceleration", a, e),
         ),
         Case {
             id: "not-finite",
-            swept: "NaN and ∞ in parameters, state, time and forces",
+            swept: "NaN and ∞ in parameters, state, time and forces".into(),
             oracle: "refused, and the culprit named",
             accurate: 0.0,
             bound: 0.0,
             sweep: Sweep::named(&PLACES),
-            measure: &not_finite,
+            measure: Box::new(not_finite),
         },
     ]
 }

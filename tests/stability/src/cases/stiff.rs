@@ -8,33 +8,34 @@ use crate::mechanisms::{Elastic, Incline};
 use uktool::stability::{Case, Effort, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
+    let spring_by = |id, method, swept: &'static str| Case {
+        id,
+        swept: swept.into(),
+        oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
+        accurate: 1e-7,
+        bound: 1e-4,
+        sweep: decades(2, 12, 1, 2),
+        measure: Box::new(move |k, effort| spring(k, method, effort)),
+    };
     vec![
-        Case {
-            id: "spring",
-            swept: "stiffness of a spring in place of a pendulum's rod, N/m, explicit method",
-            oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
-            accurate: 1e-7,
-            bound: 1e-4,
-            sweep: decades(2, 12, 1, 2),
-            measure: &|k, effort| spring(k, Method::Dop853, effort),
-        },
-        Case {
-            id: "spring-implicit",
-            swept: "the same by the implicit method, Radau IIA of order 5",
-            oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
-            accurate: 1e-7,
-            bound: 1e-4,
-            sweep: decades(2, 12, 1, 2),
-            measure: &|k, effort| spring(k, Method::Radau5, effort),
-        },
+        spring_by(
+            "spring",
+            Method::Dop853,
+            "stiffness of a spring in place of a pendulum's rod, N/m, explicit method",
+        ),
+        spring_by(
+            "spring-implicit",
+            Method::Radau5,
+            "the same by the implicit method, Radau IIA of order 5",
+        ),
         Case {
             id: "drag",
-            swept: "drag coefficient of a slide on a track, 1/s",
+            swept: "drag coefficient of a slide on a track, 1/s".into(),
             oracle: "closed form of linear drag",
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(0, 8, 1, 0),
-            measure: &drag,
+            measure: Box::new(drag),
         },
     ]
 }
