@@ -79,7 +79,6 @@ fn printed<S: Serializer>(row: &TableRow, to: S) -> Result<S::Ok, S::Error> {
 pub(super) struct Chain {
     pub(super) row: ChainRow,
     pub(super) run: RunRow,
-    pub(super) csv: Vec<u8>,
     /// (t, ÿ1).
     pub(super) acceleration: Vec<(f64, f64)>,
     /// (t, y1).
@@ -128,7 +127,7 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
     let start = entry.start(&entry.mechanism, start, &options)?;
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
     let (mut motion, run) = Motion::new(&name, &entry.mechanism, start, UNTIL, Some(turn))?;
-    let hit = motion.trajectory().events("turn")?.next().ok_or_else(|| {
+    let hit = motion.trajectory.events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"
         ))
@@ -184,7 +183,6 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
     Ok(Chain {
         row,
         run,
-        csv: motion.csv()?,
         acceleration,
         fall,
         path,

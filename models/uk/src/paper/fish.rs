@@ -123,7 +123,6 @@ pub(super) struct FishRow {
 pub(super) struct Fish {
     pub(super) row: FishRow,
     pub(super) run: RunRow,
-    pub(super) csv: Vec<u8>,
     /// (t, −ẋ1).
     pub(super) speed: Vec<(f64, f64)>,
     /// (t, ẍ1).
@@ -213,7 +212,6 @@ pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     Ok(Fish {
         row,
         run,
-        csv: motion.csv()?,
         speed,
         acceleration,
         swing,

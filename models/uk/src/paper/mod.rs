@@ -34,7 +34,7 @@ pub(crate) const OUT: &str = "out/paper";
 
 /// Every number on the page.
 #[derive(Debug, Serialize)]
-struct Paper {
+struct Paper<'a> {
     about: &'static str,
     signs: &'static str,
     method: &'static str,
@@ -44,7 +44,7 @@ struct Paper {
     uchain_catenary: ChainRow,
     fish: Vec<FishRow>,
     claims: Vec<Claim>,
-    runs: Vec<RunRow>,
+    runs: Vec<&'a RunRow>,
     /// Wall time of computing and drawing, s.
     seconds: f64,
 }
@@ -54,14 +54,6 @@ const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, r
 const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and \
     mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
 
-/// All runs.
-struct Results {
-    /// Table 1's, in order of x0.
-    chains: Vec<Chain>,
-    catenary: Chain,
-    fishes: Vec<Fish>,
-}
-
 /// Computes both cases and writes the report to the directory `out`.
 ///
 /// # Errors
@@ -70,14 +62,16 @@ struct Results {
 pub(crate) fn paper(out: &Path) -> Result<(), Failure> {
     let started = Instant::now();
     let directory = Directory::create(out)?;
-    let results = compute()?;
-    let uchain: Vec<ChainRow> = results.chains.iter().map(|c| c.row.clone()).collect();
-    let fish: Vec<FishRow> = results.fishes.iter().map(|f| f.row.clone()).collect();
-    for (name, svg) in figures::all(&results.chains, &results.fishes)? {
+    let (catenary, chains, fishes) = compute()?;
+    let uchain: Vec<ChainRow> = chains.iter().map(|c| c.row.clone()).collect();
+    let fish: Vec<FishRow> = fishes.iter().map(|f| f.row.clone()).collect();
+    for (name, svg) in figures::all(&chains, &fishes)? {
         directory.write(&format!("figures/{name}.svg"), svg)?;
     }
-    for (run, csv) in results.samples() {
-        directory.write(&format!("csv/{}.csv", run.name), csv)?;
+    let runs = chains.iter().chain([&catenary]).map(|c| &c.run);
+    let runs: Vec<&RunRow> = runs.chain(fishes.iter().map(|f| &f.run)).collect();
+    for run in &runs {
+        directory.write(&format!("csv/{}.csv", run.name), &run.csv)?;
     }
     let paper = Paper {
         about: ABOUT,
@@ -86,9 +80,9 @@ pub(crate) fn paper(out: &Path) -> Result<(), Failure> {
         tolerance: TOLERANCE,
         claims: claims::judge(&uchain, &fish),
         uchain,
-        uchain_catenary: results.catenary.row.clone(),
+        uchain_catenary: catenary.row.clone(),
         fish,
-        runs: results.samples().map(|(run, _)| run.clone()).collect(),
+        runs,
         seconds: started.elapsed().as_secs_f64(),
     };
     directory.write(chain::FILM, chain::film()?)?;
@@ -98,16 +92,8 @@ pub(crate) fn paper(out: &Path) -> Result<(), Failure> {
     report(&directory, &paper)
 }
 
-impl Results {
-    /// Each run with its samples as CSV.
-    fn samples(&self) -> impl Iterator<Item = (&RunRow, &[u8])> {
-        let chains = self.chains.iter().chain([&self.catenary]);
-        let fishes = self.fishes.iter().map(|f| (&f.run, f.csv.as_slice()));
-        chains.map(|c| (&c.run, c.csv.as_slice())).chain(fishes)
-    }
-}
-
-fn compute() -> Result<Results, Failure> {
+/// The chain from another start, those of Table 1 in order of x0, and the fish with all gaits.
+fn compute() -> Result<(Chain, Vec<Chain>, Vec<Fish>), Failure> {
     let mut starts = vec![(chain::OTHER_START, &TABLE_1[0])];
     starts.extend(TABLE_1.iter().map(|row| (chain::PAPER_START, row)));
     let gaits = fish::gaits();
@@ -122,11 +108,7 @@ fn compute() -> Result<Results, Failure> {
     let (chains, fishes) = rayon::join(|| each(&starts, chain), || each(&gaits, fish));
     progress.finish();
     let (mut chains, fishes) = (chains?, fishes?);
-    Ok(Results {
-        catenary: chains.remove(0),
-        chains,
-        fishes,
-    })
+    Ok((chains.remove(0), chains, fishes))
 }
 
 /// What `compute` makes of each item, one after the other by whoever is free.
@@ -139,7 +121,7 @@ fn each<T: Sync, R: Send>(
 }
 
 /// What a person at the terminal wants to know at once.
-fn report(directory: &Directory, paper: &Paper) -> Result<(), Failure> {
+fn report(directory: &Directory, paper: &Paper<'_>) -> Result<(), Failure> {
     let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
     output::to_stdout(|w| {
         writeln!(

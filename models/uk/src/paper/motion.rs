@@ -35,11 +35,11 @@ pub(super) fn film(id: &str, runs: [(String, Start); 2], until: f64) -> Result<S
 /// A computed motion, and its accelerations.
 pub(super) struct Motion {
     solver: Solver,
-    trajectory: Trajectory,
+    pub(super) trajectory: Trajectory,
 }
 
 /// Cost and quality of one integration.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct RunRow {
     /// Name, also of the CSV file.
     pub(super) name: String,
@@ -55,6 +55,9 @@ pub(super) struct RunRow {
     pub(super) drift: Drift,
     /// Wall time, s.
     pub(super) seconds: f64,
+    /// The samples as CSV.
+    #[serde(skip)]
+    pub(super) csv: Vec<u8>,
 }
 
 impl Motion {
@@ -79,7 +82,9 @@ impl Motion {
             .until(until)
             .map_err(|f| Failure::Failed(format!("{name}: {}", f.error)))?;
         let seconds = started.elapsed().as_secs_f64();
-        let work = trajectory.work();
+        let (work, mut csv) = (trajectory.work(), Vec::new());
+        let written = trajectory.write_csv(&mut csv);
+        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
         let run = RunRow {
             name: name.to_owned(),
             until,
@@ -90,13 +95,10 @@ impl Motion {
             fallbacks: work.fallbacks,
             drift: Drift::of(&trajectory),
             seconds,
+            csv,
         };
         let solver = Solver::new(mechanism, SolverOptions::default());
         Ok((Motion { solver, trajectory }, run))
-    }
-
-    pub(super) fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
     }
 
     /// The state at `t`.
@@ -111,14 +113,6 @@ impl Motion {
         let solver = &mut self.solver;
         solver.acceleration(t, &state.q, &state.v, &mut out)?;
         Ok(out)
-    }
-
-    /// The samples as CSV.
-    pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
-        let mut text = Vec::new();
-        let written = self.trajectory.write_csv(&mut text);
-        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
-        Ok(text)
     }
 }
 
