@@ -115,34 +115,27 @@ pub fn table(
         cells().all(|cell| !matches!(cell, Cell::Number(_)))
             && cells().any(|cell| !matches!(cell, Cell::Missing))
     };
-    let mut columns = 0..;
-    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
-    for head in heads.split('|') {
+    let heads = heads.split('|').flat_map(|head| {
         let (group, members) = head.split_once(": ").unwrap_or(("", head));
-        let members = members.split(';').map(str::trim);
-        let members = members
-            .filter(|_| columns.next().is_some_and(known))
-            .collect();
-        groups.push((group.trim(), members));
-    }
-    let shown: usize = groups.iter().map(|(_, members)| members.len()).sum();
-    let grouped = groups
-        .iter()
-        .any(|(group, members)| !group.is_empty() && !members.is_empty());
-    // (Heads first: of columns there is no end.)
-    let heads = groups.iter().flat_map(|(_, members)| members);
-    let heads = heads.zip((0..).filter(|column| known(*column)));
+        members
+            .split(';')
+            .map(move |member| (group.trim(), member.trim()))
+    });
+    let heads: Vec<(usize, (&str, &str))> = heads.enumerate().filter(|(k, _)| known(*k)).collect();
+    let groups = || heads.chunk_by(|(_, (one, _)), (_, (other, _))| one == other);
     html! {
         figure.table {
             figcaption { (caption) }
             div.scroll { table {
                 thead {
-                    @if grouped { tr { @for (group, members) in &groups { (group_head(group, members.len())) } } }
-                    tr { @for (member, column) in heads { th class=[text(column).then_some("text")] { (PreEscaped(member)) } } }
+                    @if heads.iter().any(|(_, (group, _))| !group.is_empty()) {
+                        tr { @for group in groups() { (group_head(group[0].1.0, group.len())) } }
+                    }
+                    tr { @for (k, (_, head)) in &heads { th class=[text(*k).then_some("text")] { (PreEscaped(head)) } } }
                 }
                 tbody { @for row in &rows { tr {
-                    @for (column, cell) in row.iter().enumerate().filter(|(column, _)| known(*column)) {
-                        (data(cell, shown - (0..column).filter(|c| known(*c)).count(), text(column)))
+                    @for (left, (k, _)) in (1..=heads.len()).rev().zip(&heads) {
+                        @if let Some(cell) = row.get(*k) { (data(cell, left, text(*k))) }
                     }
                 } } }
             } }
