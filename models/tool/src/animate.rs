@@ -17,7 +17,7 @@ use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::{document, joined, message};
-use crate::motion::Motion;
+use crate::motion::{Motion, whole};
 use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
@@ -43,11 +43,8 @@ pub struct AnimateArgs {
 
 /// Reads a number of pictures.
 fn pictures(text: &str) -> Result<u32, String> {
-    let number = text.trim().parse::<f64>().ok();
-    let number = number.filter(|n| n.fract() == 0.0 && (2.0..=MOST_PICTURES as f64).contains(n));
-    number
-        .map(|n| n as u32)
-        .ok_or_else(|| format!("a whole number of pictures is needed, from 2 to {MOST_PICTURES}"))
+    let number = whole(text, 2.0..MOST_PICTURES as f64 + 1.0).map(|number| number as u32);
+    number.ok_or_else(|| format!("a whole number of pictures is needed, from 2 to {MOST_PICTURES}"))
 }
 
 /// More runs side by side are not told apart.

@@ -1,5 +1,7 @@
 //! Curves of a motion as they are drawn by `run --plot`.
 
+use std::mem;
+
 use ukcore::Prepared;
 use ukcore::simulate::Sample;
 
@@ -46,11 +48,7 @@ impl<T> Thinned<T> {
         self.last = None;
         self.items.push(item);
         if self.items.len() > self.most {
-            let mut k = 0;
-            self.items.retain(|_| {
-                k += 1;
-                k % 2 == 1
-            });
+            self.items = mem::take(&mut self.items).into_iter().step_by(2).collect();
             self.stride *= 2;
         }
     }
