@@ -26,7 +26,7 @@ const INTERVALS: u32 = 12;
 #[derive(Debug, Clone)]
 pub(super) struct Truth {
     pub(super) source: String,
-    /// Largest error that the states may have, in the norm of [`Truth::errors`].
+    /// Largest error that the states may have, in the norm of [`Truth::distance`].
     pub(super) floor: f64,
     /// Times of the states, in order.
     pub(super) times: Vec<f64>,
@@ -145,13 +145,9 @@ impl Truth {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    pub(super) fn last(&self) -> usize {
-        self.times.len().saturating_sub(1)
-    }
-
-    /// Distance of (q, q̇) from state number `index`.
-    pub(super) fn errors(&self, index: usize, state: &[f64]) -> Distance {
-        self.distance(state, &self.states[index])
+    /// Distance of (q, q̇) from the last of the states.
+    pub(super) fn at_end(&self, state: &[f64]) -> Distance {
+        self.distance(state, &self.states[self.states.len() - 1])
     }
 
     /// Distance of two (q, q̇).
@@ -285,7 +281,7 @@ mod tests {
         let shipped = Truth::shipped(mechanism.spec(), &start(), &closed());
         let computed = Truth::computed(&mechanism, &start(), shipped.times.clone());
         let computed = computed.expect("the runs succeed");
-        let error = shipped.errors(shipped.last(), &computed.states[computed.last()]);
+        let error = shipped.at_end(&computed.states[computed.states.len() - 1]);
         let bound = 3.0 * (shipped.floor + computed.floor);
         assert!(error.scaled < bound, "{error:?} {bound:e}");
     }
@@ -293,7 +289,7 @@ mod tests {
     #[test]
     fn a_state_that_is_no_number_is_infinitely_far_or_not_a_number() {
         let truth = Truth::shipped(Oscillator::SPEC, &start(), &closed());
-        let distance = truth.errors(0, &[f64::NAN, 0.0]);
+        let distance = truth.at_end(&[f64::NAN, 0.0]);
         assert!(distance.scaled.is_nan() && distance.absolute.is_nan());
         assert!(truth.floor < 1e-13);
     }
