@@ -27,7 +27,6 @@ use crate::numbers;
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 use crate::scene::Start;
-use crate::units::Quantity;
 
 use export::Report;
 pub(crate) use truth::{largest, scale, states};
@@ -176,15 +175,13 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         jobs.push(job(entry.id.clone(), None));
     }
     for variation in entry.variations {
-        let varied = variation.iter();
-        let settings = varied.clone();
-        let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
-        let words = joined(varied.map(|(name, value)| format!("{name} {value:e}")));
+        let words = joined(
+            variation
+                .iter()
+                .map(|(name, value)| format!("{name} {value:e}")),
+        );
         jobs.push(Job {
-            start: Start {
-                settings: settings.collect(),
-                ..Start::default()
-            },
+            start: Start::with(None, variation),
             ..job(format!("{} with {words}", entry.id), None)
         });
     }

@@ -1,14 +1,13 @@
 //! Case 1: the falling U-chain (§3-5), one run for each initial separation.
 
 use models::uchain::{TABLE_1, TableRow};
-use models::{Model, StartOptions, UChain};
+use models::{Model, UChain};
 use serde::{Serialize, Serializer};
 use serde_json::json;
 use ukcore::Event;
 use ukcore::simulate::Direction;
-use uktool::command;
 use uktool::failure::Failure;
-use uktool::scene::{Place, Start};
+use uktool::scene::Start;
 
 use super::measure;
 use super::motion::{self, Motion, RunRow, times};
@@ -99,13 +98,7 @@ pub(super) const FILM: &str = "chain-falling.html";
 pub(super) fn film() -> Result<String, Failure> {
     let [first, .., last] = TABLE_1;
     let runs = [first, last].map(|row| {
-        let start = Start {
-            place: Place {
-                start: Some(PAPER_START.to_owned()),
-                ..Place::default()
-            },
-            settings: vec![("x0".to_owned(), row.x0.into())],
-        };
+        let start = Start::with(Some(PAPER_START), &[("x0", row.x0)]);
         (format!("x0 = {} m", row.x0), start)
     });
     motion::film(UChain::ID, runs, UNTIL)
@@ -121,12 +114,9 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
         PAPER_START => format!("uchain-{x0}"),
         other => format!("uchain-{other}-{x0}"),
     };
-    let models = models::entries();
-    let entry = command::find(&models, UChain::ID)?;
-    let options = StartOptions::new().with("x0", x0);
-    let start = entry.start(&entry.mechanism, start, &options)?;
+    let start = Start::with(Some(start), &[("x0", x0)]);
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
-    let (mut motion, run) = Motion::new(&name, &entry.mechanism, start, UNTIL, Some(turn))?;
+    let (mut motion, run) = Motion::new(&name, UChain::ID, &start, UNTIL, Some(turn))?;
     let hit = motion.trajectory.events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"

@@ -3,12 +3,10 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use ukcore::{
-    Event, Method, Prepared, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory,
-};
+use ukcore::{Event, Method, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory};
 use uktool::drift::Drift;
 use uktool::failure::Failure;
-use uktool::scene::Start;
+use uktool::scene::{Ready, Start};
 use uktool::{animate, command};
 
 use super::TOLERANCE;
@@ -61,17 +59,21 @@ pub(super) struct RunRow {
 }
 
 impl Motion {
-    /// Integrates `mechanism` from `start` to `until`, with an event.
+    /// Integrates the model `id` from `start` to `until`, with an event.
     pub(super) fn new(
         name: &str,
-        mechanism: &Prepared,
-        start: State,
+        id: &str,
+        start: &Start,
         until: f64,
         event: Option<Event>,
     ) -> Result<(Self, RunRow), Failure> {
+        let models = models::entries();
+        let Ready {
+            mechanism, state, ..
+        } = start.ready(command::find(&models, id)?)?;
         let started = Instant::now();
-        let mut simulation = Simulation::new(mechanism)
-            .start(start)
+        let mut simulation = Simulation::new(&mechanism)
+            .start(state)
             .tolerance(TOLERANCE)
             .every(SAMPLES)
             .dense();
