@@ -65,32 +65,28 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
         false => name,
     };
     let mut cases = Vec::new();
-    let mut add = |id, swept, sweep, change| {
+    let mut add = |id, swept: String, sweep, change| {
         let (accurate, bound) = match change {
             Change::Tolerance => (GATHERED, BOUND / TOLERANCE),
             _ => (GATHERED * TOLERANCE, BOUND),
         };
         let subject = &subject;
-        cases.push(Case {
-            id,
-            swept,
-            oracle: ORACLE,
-            accurate,
-            bound,
-            sweep,
-            measure: Box::new(move |value, effort| subject.error(change, value, effort)),
+        let case = Case::new(id, move |value, effort| {
+            subject.error(change, value, effort)
         });
+        let case = case.swept(swept).over(sweep).against(ORACLE);
+        cases.push(case.within(accurate, bound));
     };
     let usual = subject.ready.mechanism.parameters().iter();
     for (i, (parameter, value)) in spec.params.iter().zip(usual).enumerate() {
         if *value != 0.0 {
             let name = parameter.name;
-            let swept = format!("parameter {name}, times what it is").into();
+            let swept = format!("parameter {name}, times what it is");
             add(name, swept, decades(-12, 12, 3, 0), Change::Parameter(i));
         }
     }
     if subject.ready.state.v.iter().any(|v| *v != 0.0) {
-        let swept = "velocities of the start, times what they are".into();
+        let swept = "velocities of the start, times what they are".to_owned();
         let id = free("speed", "start-speed");
         add(id, swept, decades(-6, 6, 2, 0), Change::Speed);
     }
@@ -98,7 +94,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
         ordinary: 6,
         ..decades(-3, -15, 1, -9)
     };
-    let swept = "tolerance; errors are in units of it".into();
+    let swept = "tolerance; errors are in units of it".to_owned();
     let id = free("tolerance", "run-tolerance");
     add(id, swept, tolerances, Change::Tolerance);
     sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)

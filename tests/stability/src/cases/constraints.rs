@@ -12,33 +12,21 @@ use uktool::stability::{Case, Effort, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
-        Case {
-            id: "rows-scaled",
-            swept: "one row of a double pendulum times s, the other by s".into(),
-            oracle: "the rows as they are: accelerations in 31 digits, and the run",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: decades(-150, 150, 15, 0),
-            measure: Box::new(rows_scaled),
-        },
-        Case {
-            id: "rows-copied",
-            swept: "rod of a pendulum declared again times s, and by s".into(),
-            oracle: "closed form of the pendulum; the copies are named as redundant",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: decades(-150, 150, 15, 0),
-            measure: Box::new(rows_copied),
-        },
-        Case {
-            id: "rows-near",
-            swept: "angle between two planes that a particle is held on".into(),
-            oracle: "closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance",
-            accurate: 1e-12,
-            bound: 1e-10,
-            sweep: decades(-1, -16, 1, -1),
-            measure: Box::new(rows_near),
-        },
+        Case::new("rows-scaled", rows_scaled)
+            .swept("one row of a double pendulum times s, the other by s")
+            .over(decades(-150, 150, 15, 0))
+            .against("the rows as they are: accelerations in 31 digits, and the run")
+            .within(1e-9, 1e-6),
+        Case::new("rows-copied", rows_copied)
+            .swept("rod of a pendulum declared again times s, and by s")
+            .over(decades(-150, 150, 15, 0))
+            .against("closed form of the pendulum; the copies are named as redundant")
+            .within(1e-9, 1e-6),
+        Case::new("rows-near", rows_near)
+            .swept("angle between two planes that a particle is held on")
+            .over(decades(-1, -16, 1, -1))
+            .against("closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance")
+            .within(1e-12, 1e-10),
     ]
 }
 

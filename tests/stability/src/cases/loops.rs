@@ -14,63 +14,36 @@ use uktool::stability::{Case, Effort, Sweep, decades};
 pub(crate) fn cases() -> Vec<Case<'static>> {
     let distances = || decades(-1, -16, 1, -1).and(0.0);
     vec![
-        Case {
-            id: "whip",
-            swept: "links of a falling U-chain at its deepest acceleration".into(),
-            oracle: "the same equations in 31 digits at the crack; energy and lengths of the run",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: Sweep::of(&[9.0, 17.0, 33.0, 65.0]),
-            measure: Box::new(whip),
-        },
-        Case {
-            id: "crank-distance",
-            swept:
-                "angle from the singular position of a slider-crank with equal rods, accelerations"
-                    .into(),
-            oracle: "closed form in the crank's angle",
-            accurate: 1e-9,
-            bound: 1e-4,
-            sweep: distances(),
-            measure: Box::new(crank_distance),
-        },
-        Case {
-            id: "crank-through",
-            swept: "1 − r/l of a slider-crank that turns through its nearly singular position"
-                .into(),
-            oracle: "energy, and the slider where the crank's angle puts it",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: decades(-1, -12, 1, -1),
-            measure: Box::new(crank_through),
-        },
-        Case {
-            id: "bars-distance",
-            swept: "angle of four-bar linkages from the line of all rods, accelerations".into(),
-            oracle: "closed form in the lean; where the couplers are named as redundant, the equations on the line in 31 digits",
-            accurate: 1e-10,
-            bound: 1e-4,
-            sweep: distances(),
-            measure: Box::new(bars_distance),
-        },
-        Case {
-            id: "bars-through",
-            swept: "rate, 1/s, at which four-bar linkages pass the line of all rods".into(),
-            oracle: "energy, and all cranks parallel",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: decades(-2, 5, 1, 0),
-            measure: Box::new(|rate, effort| through(rate, 1e-9, effort)),
-        },
-        Case {
-            id: "bars-tolerance",
-            swept: "tolerance with which four-bar linkages pass the line of all rods at 2/s".into(),
-            oracle: "energy, and all cranks parallel",
-            accurate: 1e-6,
-            bound: 1e-2,
-            sweep: decades(-4, -14, 1, -9),
-            measure: Box::new(|tolerance, effort| through(2.0, tolerance, effort)),
-        },
+        Case::new("whip", whip)
+            .swept("links of a falling U-chain at its deepest acceleration")
+            .over(Sweep::of(&[9.0, 17.0, 33.0, 65.0]))
+            .against("the same equations in 31 digits at the crack; energy and lengths of the run")
+            .within(1e-8, 1e-5),
+        Case::new("crank-distance", crank_distance)
+            .swept("angle from the singular position of a slider-crank with equal rods, accelerations")
+            .over(distances())
+            .against("closed form in the crank's angle")
+            .within(1e-9, 1e-4),
+        Case::new("crank-through", crank_through)
+            .swept("1 − r/l of a slider-crank that turns through its nearly singular position")
+            .over(decades(-1, -12, 1, -1))
+            .against("energy, and the slider where the crank's angle puts it")
+            .within(1e-8, 1e-5),
+        Case::new("bars-distance", bars_distance)
+            .swept("angle of four-bar linkages from the line of all rods, accelerations")
+            .over(distances())
+            .against("closed form in the lean; where the couplers are named as redundant, the equations on the line in 31 digits")
+            .within(1e-10, 1e-4),
+        Case::new("bars-through", |rate, effort| through(rate, 1e-9, effort))
+            .swept("rate, 1/s, at which four-bar linkages pass the line of all rods")
+            .over(decades(-2, 5, 1, 0))
+            .against("energy, and all cranks parallel")
+            .within(1e-8, 1e-5),
+        Case::new("bars-tolerance", |tolerance, effort| through(2.0, tolerance, effort))
+            .swept("tolerance with which four-bar linkages pass the line of all rods at 2/s")
+            .over(decades(-4, -14, 1, -9))
+            .against("energy, and all cranks parallel")
+            .within(1e-6, 1e-2),
     ]
 }
 

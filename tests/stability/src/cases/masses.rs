@@ -11,69 +11,45 @@ use uktool::stability::{Case, Effort, Sweep, decades};
 pub(crate) fn cases() -> Vec<Case<'static>> {
     let ratio = || decades(-12, 12, 2, 0);
     vec![
-        Case {
-            id: "mass-ratio",
-            swept: "mass ratio of neighbours in a chain, accelerations".into(),
-            oracle: "the same equations in 31 digits; all four formulas",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: ratio(),
-            measure: Box::new(|ratio, effort| at_once(ratio, 1.0, effort)),
-        },
-        Case {
-            id: "mass-ratio-run",
-            swept: "mass ratio of neighbours in a chain, 0.5 s of motion".into(),
-            oracle: "energy, as a part of that exchanged, and lengths",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: ratio(),
-            measure: Box::new(|ratio, effort| conserved(ratio, 1.0, effort)),
-        },
-        Case {
-            id: "length-ratio",
-            swept: "length ratio of neighbours in a chain, accelerations".into(),
-            oracle: "the same equations in 31 digits; all four formulas",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: decades(-8, 8, 1, 0),
-            measure: Box::new(|ratio, effort| at_once(1.0, ratio, effort)),
-        },
-        Case {
-            id: "length-ratio-run",
-            swept: "length ratio of neighbours in a chain, 0.5 s of motion".into(),
-            oracle: "energy, as a part of that exchanged, and lengths",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: decades(-8, 8, 1, 0),
-            measure: Box::new(|ratio, effort| conserved(1.0, ratio, effort)),
-        },
-        Case {
-            id: "mass-to-zero",
-            swept: "inertia of a massless angle (UP limit), accelerations and one second".into(),
-            oracle: "closed form for every inertia, 0 included",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: inertias(),
-            measure: Box::new(|i, effort| wheel(1.0, i, effort)),
-        },
-        Case {
-            id: "bob-to-zero",
-            swept: "mass of the bob against the inertia of its angle".into(),
-            oracle: "closed form for every mass, 0 included",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: inertias(),
-            measure: Box::new(|m, effort| wheel(m, 1.0, effort)),
-        },
-        Case {
-            id: "quaternion",
-            swept: "turn of a rigid body from the identity quaternion, rad (singular M)".into(),
-            oracle: "the same equations in 31 digits; both formulas for singular M",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: decades(0, -16, 1, 0).and(0.0),
-            measure: Box::new(near_identity),
-        },
+        Case::new("mass-ratio", |ratio, effort| at_once(ratio, 1.0, effort))
+            .swept("mass ratio of neighbours in a chain, accelerations")
+            .over(ratio())
+            .against("the same equations in 31 digits; all four formulas")
+            .within(1e-12, 1e-8),
+        Case::new("mass-ratio-run", |ratio, effort| {
+            conserved(ratio, 1.0, effort)
+        })
+        .swept("mass ratio of neighbours in a chain, 0.5 s of motion")
+        .over(ratio())
+        .against("energy, as a part of that exchanged, and lengths")
+        .within(1e-8, 1e-5),
+        Case::new("length-ratio", |ratio, effort| at_once(1.0, ratio, effort))
+            .swept("length ratio of neighbours in a chain, accelerations")
+            .over(decades(-8, 8, 1, 0))
+            .against("the same equations in 31 digits; all four formulas")
+            .within(1e-12, 1e-8),
+        Case::new("length-ratio-run", |ratio, effort| {
+            conserved(1.0, ratio, effort)
+        })
+        .swept("length ratio of neighbours in a chain, 0.5 s of motion")
+        .over(decades(-8, 8, 1, 0))
+        .against("energy, as a part of that exchanged, and lengths")
+        .within(1e-8, 1e-5),
+        Case::new("mass-to-zero", |i, effort| wheel(1.0, i, effort))
+            .swept("inertia of a massless angle (UP limit), accelerations and one second")
+            .over(inertias())
+            .against("closed form for every inertia, 0 included")
+            .within(1e-9, 1e-6),
+        Case::new("bob-to-zero", |m, effort| wheel(m, 1.0, effort))
+            .swept("mass of the bob against the inertia of its angle")
+            .over(inertias())
+            .against("closed form for every mass, 0 included")
+            .within(1e-9, 1e-6),
+        Case::new("quaternion", near_identity)
+            .swept("turn of a rigid body from the identity quaternion, rad (singular M)")
+            .over(decades(0, -16, 1, 0).and(0.0))
+            .against("the same equations in 31 digits; both formulas for singular M")
+            .within(1e-12, 1e-8),
     ]
 }
 

@@ -9,66 +9,43 @@ use super::{end, off, swung, worse};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
-    let scale = |id, swept: &'static str, sweep, measure| Case {
-        id,
-        swept: swept.into(),
-        oracle: "the motion in SI units, scaled",
-        accurate: 1e-7,
-        bound: 1e-4,
-        sweep,
-        measure,
-    };
+    let si = "the motion in SI units, scaled";
     vec![
-        scale(
-            "unit-length",
-            "unit of length of a U-chain's fall",
-            decades(-30, 30, 3, 0),
-            Box::new(|s, e| in_units(s, 1.0, 1.0, e)),
-        ),
-        scale(
-            "unit-mass",
-            "unit of mass of a U-chain's fall",
-            decades(-300, 300, 50, 0),
-            Box::new(|s, e| in_units(1.0, s, 1.0, e)),
-        ),
-        scale(
-            "unit-time",
-            "unit of time of a U-chain's fall",
-            decades(-30, 30, 3, 0),
-            Box::new(|s, e| in_units(1.0, 1.0, s, e)),
-        ),
-        Case {
-            id: "turns",
-            swept: "whole turns by which a double pendulum starts advanced, 2 s".into(),
-            oracle: "the same start without them",
-            accurate: 1e-8,
-            bound: 1e-4,
-            sweep: decades(0, 16, 1, 0),
-            measure: Box::new(turns),
-        },
-        Case {
-            id: "first-step",
-            swept: "first step of a pendulum's run, s".into(),
-            oracle: "closed form",
-            accurate: 1e-8,
-            bound: 1e-6,
-            sweep: Sweep::of(&[
+        Case::new("unit-length", |s, effort| in_units(s, 1.0, 1.0, effort))
+            .swept("unit of length of a U-chain's fall")
+            .over(decades(-30, 30, 3, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("unit-mass", |s, effort| in_units(1.0, s, 1.0, effort))
+            .swept("unit of mass of a U-chain's fall")
+            .over(decades(-300, 300, 50, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("unit-time", |s, effort| in_units(1.0, 1.0, s, effort))
+            .swept("unit of time of a U-chain's fall")
+            .over(decades(-30, 30, 3, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("turns", turns)
+            .swept("whole turns by which a double pendulum starts advanced, 2 s")
+            .over(decades(0, 16, 1, 0))
+            .against("the same start without them")
+            .within(1e-8, 1e-4),
+        Case::new("first-step", first_step)
+            .swept("first step of a pendulum's run, s")
+            .over(Sweep::of(&[
                 1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28, 1e-32, 1e-40, 1e-80, 1e-160,
                 1e-320,
-            ]),
-            measure: Box::new(first_step),
-        },
-        Case {
-            id: "short-run",
-            swept: "length of a pendulum's run, s".into(),
-            oracle: "its Taylor series to the third order",
-            accurate: 1e-15,
-            bound: 1e-12,
-            sweep: Sweep::of(&[
+            ]))
+            .against("closed form")
+            .within(1e-8, 1e-6),
+        Case::new("short-run", short_run)
+            .swept("length of a pendulum's run, s")
+            .over(Sweep::of(&[
                 1e-4, 1e-8, 1e-16, 1e-32, 1e-64, 1e-128, 1e-256, 1e-300, 1e-310, 1e-320,
-            ]),
-            measure: Box::new(short_run),
-        },
+            ]))
+            .against("its Taylor series to the third order")
+            .within(1e-15, 1e-12),
     ]
 }
 

@@ -8,35 +8,24 @@ use crate::mechanisms::{Carriage, Elastic};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
-    let jump = |id, what: &'static str, swept: &'static str| Case {
-        id,
-        swept: swept.into(),
-        oracle: "closed form of the mass on its spring",
-        accurate: 1e-7,
-        bound: 1e-5,
-        sweep: decades(-16, 0, 1, -16),
-        measure: Box::new(move |by, effort| jumping(what, by, effort)),
+    let jump = |id, what: &'static str, swept: &'static str| {
+        Case::new(id, move |by, effort| jumping(what, by, effort))
+            .swept(swept)
+            .over(decades(-16, 0, 1, -16))
+            .against("closed form of the mass on its spring")
+            .within(1e-7, 1e-5)
     };
     vec![
-        Case {
-            id: "start-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a start".into(),
-            oracle: "consistent to rounding, and moved by at most 20 times the distance",
-            accurate: 1e-13,
-            bound: 1e-12,
-            sweep: decades(-16, 0, 1, -16),
-            measure: Box::new(start_off),
-        },
-        Case {
-            id: "assembly-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a guess to assemble"
-                .into(),
-            oracle: "consistent to rounding, and moved by at most 20 times the distance",
-            accurate: 1e-13,
-            bound: 1e-12,
-            sweep: decades(-16, 1, 1, -16),
-            measure: Box::new(assembly_off),
-        },
+        Case::new("start-off", start_off)
+            .swept("distance of a U-chain's start from its constraints, m, as a start")
+            .over(decades(-16, 0, 1, -16))
+            .against("consistent to rounding, and moved by at most 20 times the distance")
+            .within(1e-13, 1e-12),
+        Case::new("assembly-off", assembly_off)
+            .swept("distance of a U-chain's start from its constraints, m, as a guess to assemble")
+            .over(decades(-16, 1, 1, -16))
+            .against("consistent to rounding, and moved by at most 20 times the distance")
+            .within(1e-13, 1e-12),
         jump("jump-place", "place", "jump of a prescribed position, m"),
         jump(
             "jump-velocity",
@@ -48,15 +37,11 @@ pub(crate) fn cases() -> Vec<Case<'static>> {
             "acceleration",
             "jump of a prescribed acceleration, m/s²",
         ),
-        Case {
-            id: "not-finite",
-            swept: "NaN and ∞ in parameters, state, time and forces".into(),
-            oracle: "refused, and the culprit named",
-            accurate: 0.0,
-            bound: 0.0,
-            sweep: Sweep::named(&PLACES),
-            measure: Box::new(not_finite),
-        },
+        Case::new("not-finite", not_finite)
+            .swept("NaN and ∞ in parameters, state, time and forces")
+            .over(Sweep::named(&PLACES))
+            .against("refused, and the culprit named")
+            .within(0.0, 0.0),
     ]
 }
 

@@ -11,53 +11,35 @@ use uktool::stability::{Case, Effort, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
-        Case {
-            id: "long-pendulum",
-            swept: "duration of a pendulum's swing, s".into(),
-            oracle: "energy, and the closed form at the end",
-            accurate: 1e-6,
-            bound: 1e-3,
-            sweep: decades(0, 4, 1, 0),
-            measure: Box::new(long_pendulum),
-        },
-        Case {
-            id: "long-double",
-            swept: "duration of a double pendulum's swing, s".into(),
-            oracle: "energy, as a part of that exchanged",
-            accurate: 1e-7,
-            bound: 1e-4,
-            sweep: decades(0, 4, 1, 0),
-            measure: Box::new(|duration, effort| long_double(duration, Method::Dop853, effort)),
-        },
-        Case {
-            id: "long-rattle",
-            swept:
-                "duration of a double pendulum's swing, s, by RATTLE of order 4 with steps of 5 ms"
-                    .into(),
-            oracle: "energy, as a part of that exchanged",
-            accurate: 1e-5,
-            bound: 1e-3,
-            sweep: decades(0, 4, 1, 0),
-            measure: Box::new(|duration, effort| long_double(duration, RATTLE, effort)),
-        },
-        Case {
-            id: "late-pendulum",
-            swept: "time at which a pendulum starts, s; one second of motion".into(),
-            oracle: "closed form",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: decades(0, 15, 1, 0),
-            measure: Box::new(late_pendulum),
-        },
-        Case {
-            id: "late-start",
-            swept: "time at which Kapitza's pendulum starts, in periods of its drive (1 s)".into(),
-            oracle: "the same start at t = 0",
-            accurate: 1e-6,
-            bound: 1e-3,
-            sweep: decades(0, 16, 1, 0),
-            measure: Box::new(late_start),
-        },
+        Case::new("long-pendulum", long_pendulum)
+            .swept("duration of a pendulum's swing, s")
+            .over(decades(0, 4, 1, 0))
+            .against("energy, and the closed form at the end")
+            .within(1e-6, 1e-3),
+        Case::new("long-double", |duration, effort| {
+            long_double(duration, Method::Dop853, effort)
+        })
+        .swept("duration of a double pendulum's swing, s")
+        .over(decades(0, 4, 1, 0))
+        .against("energy, as a part of that exchanged")
+        .within(1e-7, 1e-4),
+        Case::new("long-rattle", |duration, effort| {
+            long_double(duration, RATTLE, effort)
+        })
+        .swept("duration of a double pendulum's swing, s, by RATTLE of order 4 with steps of 5 ms")
+        .over(decades(0, 4, 1, 0))
+        .against("energy, as a part of that exchanged")
+        .within(1e-5, 1e-3),
+        Case::new("late-pendulum", late_pendulum)
+            .swept("time at which a pendulum starts, s; one second of motion")
+            .over(decades(0, 15, 1, 0))
+            .against("closed form")
+            .within(1e-8, 1e-5),
+        Case::new("late-start", late_start)
+            .swept("time at which Kapitza's pendulum starts, in periods of its drive (1 s)")
+            .over(decades(0, 16, 1, 0))
+            .against("the same start at t = 0")
+            .within(1e-6, 1e-3),
     ]
 }
 
