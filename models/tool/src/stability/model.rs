@@ -248,13 +248,7 @@ impl Motion<'_> {
     /// (q, q̇) at the instants after `start` of the motion from there.
     fn by(&self, way: Way, start: &State, effort: &mut Effort) -> Result<Vec<Vec<f64>>, Error> {
         let forward = self.times[self.times.len() - 1] >= start.t;
-        let later = |t: &&f64| {
-            if forward {
-                **t > start.t
-            } else {
-                **t < start.t
-            }
-        };
+        let later = |t: &&f64| **t != start.t && (**t > start.t) == forward;
         let times: Vec<f64> = self.times.iter().filter(later).copied().collect();
         let until = times.last().copied().unwrap_or(start.t);
         let simulation = Simulation::new(self.mechanism)
