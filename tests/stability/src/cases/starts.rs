@@ -125,11 +125,6 @@ const PLACES: [&str; 14] = [
 
 /// Whether what is not finite is refused with a message that names it: 0, or infinity where it is not.
 fn not_finite(index: f64, effort: &mut Effort) -> Result<f64, Error> {
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "an index"
-    )]
     let place = PLACES[index as usize];
     if place.ends_with("force") {
         // At the centre of the spring its direction is 0/0.
