@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use maud::{PreEscaped, html};
 use serde::Serialize;
+use serde_json::{Value, json};
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
 use ukcore::spec::ShapeKind;
@@ -16,7 +17,7 @@ use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::{document, joined, message};
-use crate::motion::Motion;
+use crate::motion::{Motion, whole};
 use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
@@ -42,11 +43,8 @@ pub struct AnimateArgs {
 
 /// Reads a number of pictures.
 fn pictures(text: &str) -> Result<u32, String> {
-    let number = text.trim().parse::<f64>().ok();
-    let number = number.filter(|n| n.fract() == 0.0 && (2.0..=MOST_PICTURES as f64).contains(n));
-    number
-        .map(|n| n as u32)
-        .ok_or_else(|| format!("a whole number of pictures is needed, from 2 to {MOST_PICTURES}"))
+    let number = whole(text, 2.0..MOST_PICTURES as f64 + 1.0).map(|number| number as u32);
+    number.ok_or_else(|| format!("a whole number of pictures is needed, from 2 to {MOST_PICTURES}"))
 }
 
 /// More runs side by side are not told apart.
@@ -56,19 +54,13 @@ const MOST_PICTURES: usize = 100_000;
 
 /// What the page is given: numbers with the seven digits that a picture needs.
 #[derive(Serialize)]
-struct Data<'a> {
+struct Data {
     dimension: usize,
-    shapes: Vec<Shape<'a>>,
+    /// Of each its kind, how many numbers it has, and what it says.
+    shapes: Vec<Value>,
     /// J, where the declaration has units.
     energy_unit: &'static str,
     runs: Vec<Shown>,
-}
-
-#[derive(Serialize)]
-struct Shape<'a> {
-    kind: &'static str,
-    numbers: usize,
-    label: &'a str,
 }
 
 #[derive(Serialize)]
@@ -160,28 +152,20 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let runs = args.runs.each(entry, MOST_RUNS)?;
     let path = args.out.clone();
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
-    let (mut file, mut films, mut about, mut failed) = (None, Vec::new(), None, None);
-    let mut notes = args.runs.angles(entry);
+    let (mut takes, mut notes) = (Vec::new(), args.runs.angles(entry));
     for run in &runs {
         let differs = run.differs.iter();
         let label = joined(differs.map(|(name, value)| format!("{name} = {value}")));
         let ready = run.start.ready(entry);
         let ready = ready.map_err(|failure| failure.of(&label))?;
         notes.extend(run.start.other_ways(&ready));
-        let film = Film::new(&ready, label.clone())?;
-        // Where the page cannot be written it is known before a long computation.
-        if file.is_none() {
-            file = Some(WholeFile::create(&path)?);
-        }
-        let (film, error) = taken(film, &ready, &run.motion, args.pictures)?;
-        about.get_or_insert_with(|| foot(&ready, &run.motion));
-        failed = failed.or(error.map(|error| Failure::from(error).of(&label)));
-        films.push(film);
+        takes.push((Film::new(&ready, label)?, ready, &run.motion));
     }
+    // Where the page cannot be written it is known before a long computation.
+    let file = WholeFile::create(&path)?;
+    let (page, failed) = filmed(entry, takes, args.pictures)?;
     ways::tell(notes);
-    if let (Some(file), Some(about)) = (file, about) {
-        file.finish_with(page(entry, films, &about)?)?;
-    }
+    file.finish_with(page)?;
     output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
     failed.map_or(Ok(()), Err)
 }
@@ -196,34 +180,34 @@ pub fn page_of(
     motion: &Motion,
     pictures: u32,
 ) -> Result<String, Failure> {
-    let (mut films, mut about) = (Vec::new(), String::new());
+    let mut takes = Vec::new();
     for (label, start) in runs {
         let ready = start.ready(entry)?;
-        let film = Film::new(&ready, label)?;
-        let (film, error) = taken(film, &ready, motion, pictures)?;
-        error.map_or(Ok(()), Err)?;
-        if films.is_empty() {
-            about = foot(&ready, motion);
-        }
-        films.push(film);
+        takes.push((Film::new(&ready, label)?, ready, motion));
     }
-    page(entry, films, &about)
+    let (page, failed) = filmed(entry, takes, pictures)?;
+    failed.map_or(Ok(page), Err)
 }
 
-/// A film of a whole motion, and why it ends early.
-fn taken(
-    mut film: Film,
-    ready: &Ready<'_>,
-    motion: &Motion,
+/// The page of these motions, which are computed for it, and why the first of those that end early does.
+fn filmed(
+    entry: &Entry,
+    takes: Vec<(Film, Ready<'_>, &Motion)>,
     pictures: u32,
-) -> Result<(Film, Option<Error>), Failure> {
-    let every = motion.interval(ready, None, pictures - 1)?;
-    let (_, error) = motion.follow(ready, every, |sample| {
-        film.add(sample);
-        ControlFlow::Continue(())
-    })?;
-    film.end(error.as_ref());
-    Ok((film, error))
+) -> Result<(String, Option<Failure>), Failure> {
+    let (mut films, mut about, mut failed) = (Vec::new(), None, None);
+    for (mut film, ready, motion) in takes {
+        let every = motion.interval(&ready, None, pictures - 1)?;
+        let (_, error) = motion.follow(&ready, every, |sample| {
+            film.add(sample);
+            ControlFlow::Continue(())
+        })?;
+        film.end(error.as_ref());
+        about.get_or_insert_with(|| foot(&ready, motion));
+        failed = failed.or(error.map(|error| Failure::from(error).of(&film.label)));
+        films.push(film);
+    }
+    Ok((page(entry, films, &about.unwrap_or_default())?, failed))
 }
 
 fn kind(kind: ShapeKind) -> &'static str {
@@ -257,11 +241,9 @@ pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
 /// The page's text: films of one mechanism side by side, and what is to say of them.
 pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<String, Failure> {
     let spec = entry.mechanism.spec();
-    let shapes = spec.drawing.shapes.iter().map(|shape| Shape {
-        kind: kind(shape.kind),
-        numbers: shape.numbers,
-        label: shape.label,
-    });
+    let shapes = spec.drawing.shapes.iter().map(
+        |shape| json!({ "kind": kind(shape.kind), "numbers": shape.numbers, "label": shape.label }),
+    );
     let several = films.len() > 1;
     let data = Data {
         dimension: spec.drawing.dimension,

@@ -1,9 +1,11 @@
 //! Curves of a motion as they are drawn by `run --plot`.
 
+use std::mem;
+
 use ukcore::Prepared;
 use ukcore::simulate::Sample;
 
-use crate::columns::Columns;
+use crate::columns::{self, Column};
 use crate::command::path;
 use crate::failure::Failure;
 use crate::html::joined;
@@ -46,11 +48,7 @@ impl<T> Thinned<T> {
         self.last = None;
         self.items.push(item);
         if self.items.len() > self.most {
-            let mut k = 0;
-            self.items.retain(|_| {
-                k += 1;
-                k % 2 == 1
-            });
+            self.items = mem::take(&mut self.items).into_iter().step_by(2).collect();
             self.stride *= 2;
         }
     }
@@ -66,8 +64,8 @@ impl<T> Thinned<T> {
 pub(crate) struct Curves {
     file: WholeFile,
     /// Horizontal and vertical quantities, of each curve one.
-    over: Columns,
-    of: Columns,
+    over: Vec<Column>,
+    of: Vec<Column>,
     /// Over what a curve is drawn that does not say so.
     usual: String,
     rows: Thinned<(Vec<f64>, Vec<f64>)>,
@@ -95,46 +93,39 @@ impl Curves {
         let (mut over, mut of) = (Vec::new(), Vec::new());
         for curve in curves {
             let (x, y) = curve.split_once(',').unwrap_or((usual, curve));
-            let [x, y] = [x, y].map(|name| Columns::named(mechanism, &[name]));
+            let [x, y] = [x, y].map(|name| columns::named(mechanism, &[name]));
             let (x, y) = (x?, y?);
-            if curve.contains(',') && (x.names().count(), y.names().count()) != (1, 1) {
+            if curve.contains(',') && (x.len(), y.len()) != (1, 1) {
                 let message = format!(
                     "a curve `X,Y` is of two numbers; choose members of the families in `{curve}`, such as `x[0],y[0]`"
                 );
                 return Err(Failure::Usage(message));
             }
-            over.extend(y.names().flat_map(|_| x.names().map(str::to_owned)));
-            of.extend(y.names().map(str::to_owned));
+            over.extend(y.iter().flat_map(|_| x.clone()));
+            of.extend(y);
         }
         Ok(Curves {
             file: WholeFile::create(&file)?,
-            over: Columns::named(mechanism, &over)?,
-            of: Columns::named(mechanism, &of)?,
+            over,
+            of,
             usual: usual.to_owned(),
             rows: Thinned::new(MOST),
         })
     }
 
-    pub(crate) fn add(&mut self, sample: Sample<'_>) {
-        self.rows
-            .push((self.over.values(sample), self.of.values(sample)));
+    /// Takes a sample of `mechanism`.
+    pub(crate) fn add(&mut self, mechanism: &Prepared, sample: Sample<'_>) {
+        let values = |of: &[Column]| columns::values(of, mechanism, sample);
+        self.rows.push((values(&self.over), values(&self.of)));
     }
 
     /// Draws them, in panels of curves that are alike in what they are over and in their units.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let rows = self.rows.finish();
-        let (over, of) = (self.over.labels(), self.of.labels());
-        let kinds: Vec<_> = (self.over.units().into_iter())
-            .zip(self.of.units())
-            .zip(self.over.names().map(|name| name == self.usual))
-            .collect();
-        let turns: Vec<[Option<f64>; 2]> = (self.over.turns().into_iter())
-            .zip(self.of.turns())
-            .map(|(x, y)| [x, y])
-            .collect();
+        let (over, of, rows) = (&self.over, &self.of, self.rows.finish());
+        let kind = |k: usize| (&over[k].unit, &of[k].unit, over[k].name == self.usual);
         let mut panels: Vec<Vec<usize>> = Vec::new();
         for k in 0..of.len() {
-            match panels.iter_mut().find(|panel| kinds[panel[0]] == kinds[k]) {
+            match panels.iter_mut().find(|panel| kind(panel[0]) == kind(k)) {
                 Some(panel) => panel.push(k),
                 None => panels.push(vec![k]),
             }
@@ -154,20 +145,29 @@ impl Curves {
                 let points: Vec<_> = points.collect();
                 // A motion without length has no line.
                 let dots = if points.len() == 1 { 3 } else { 0 };
-                let pieces = pieces(points, turns[k]).into_iter().enumerate();
-                let label = if single { "" } else { &of[k] };
+                let turns = [over[k].turn(), of[k].turn()];
+                let pieces = pieces(points, turns).into_iter().enumerate();
                 pieces.map(move |(piece, points)| Series {
                     dots,
-                    ..Series::new(if piece == 0 { label } else { "" }, k, points)
+                    ..Series::new(
+                        if single || piece > 0 {
+                            String::new()
+                        } else {
+                            of[k].label()
+                        },
+                        k,
+                        points,
+                    )
                 })
             });
             let series: Vec<Series> = series.collect();
             let x = series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
-            let mut across: Vec<String> = panel.iter().map(|&k| over[k].clone()).collect();
+            let mut across: Vec<String> = panel.iter().map(|&k| over[k].label()).collect();
             across.dedup();
+            let (x_unit, y_unit, usual) = kind(panel[0]);
             let up = match panel.len() {
-                ..=NAMED => joined(panel.iter().map(|&k| of[k].clone())),
-                _ => kinds[panel[0]].0.1.clone(),
+                ..=NAMED => joined(panel.iter().map(|&k| of[k].label())),
+                _ => y_unit.clone(),
             };
             let (legend, above) = match single {
                 true => (Legend::None, 0),
@@ -178,8 +178,7 @@ impl Curves {
                 size: (760, height + above),
                 ..Chart::new(joined(across), up, round_range(x), series.clone())
             };
-            let ((x, y), usual) = &kinds[panel[0]];
-            match !usual && x == y && is_length(x) {
+            match !usual && x_unit == y_unit && is_length(x_unit) {
                 true => chart.drawn_to_scale(),
                 false => chart,
             }

@@ -50,10 +50,9 @@ pub fn explain(models: &[Entry], args: &ExplainArgs) -> Result<(), Failure> {
         Err(failure) => return Err(failure),
     };
     // The explanation begins with what the declaration says of itself.
-    let end = if entry.summary.is_empty() {
-        "\n\n"
-    } else {
-        ": "
+    let end = match entry.summary {
+        "" => "\n\n",
+        _ => ": ",
     };
     output::to_stdout(|out| write!(out, "{}{end}{explanation}", entry.id))?;
     result

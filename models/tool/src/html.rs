@@ -115,34 +115,27 @@ pub fn table(
         cells().all(|cell| !matches!(cell, Cell::Number(_)))
             && cells().any(|cell| !matches!(cell, Cell::Missing))
     };
-    let mut columns = 0..;
-    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
-    for head in heads.split('|') {
+    let heads = heads.split('|').flat_map(|head| {
         let (group, members) = head.split_once(": ").unwrap_or(("", head));
-        let members = members.split(';').map(str::trim);
-        let members = members
-            .filter(|_| columns.next().is_some_and(known))
-            .collect();
-        groups.push((group.trim(), members));
-    }
-    let shown: usize = groups.iter().map(|(_, members)| members.len()).sum();
-    let grouped = groups
-        .iter()
-        .any(|(group, members)| !group.is_empty() && !members.is_empty());
-    // (Heads first: of columns there is no end.)
-    let heads = groups.iter().flat_map(|(_, members)| members);
-    let heads = heads.zip((0..).filter(|column| known(*column)));
+        members
+            .split(';')
+            .map(move |member| (group.trim(), member.trim()))
+    });
+    let heads: Vec<(usize, (&str, &str))> = heads.enumerate().filter(|(k, _)| known(*k)).collect();
+    let groups = || heads.chunk_by(|(_, (one, _)), (_, (other, _))| one == other);
     html! {
         figure.table {
             figcaption { (caption) }
             div.scroll { table {
                 thead {
-                    @if grouped { tr { @for (group, members) in &groups { (group_head(group, members.len())) } } }
-                    tr { @for (member, column) in heads { th class=[text(column).then_some("text")] { (PreEscaped(member)) } } }
+                    @if heads.iter().any(|(_, (group, _))| !group.is_empty()) {
+                        tr { @for group in groups() { (group_head(group[0].1.0, group.len())) } }
+                    }
+                    tr { @for (k, (_, head)) in &heads { th class=[text(*k).then_some("text")] { (PreEscaped(head)) } } }
                 }
                 tbody { @for row in &rows { tr {
-                    @for (column, cell) in row.iter().enumerate().filter(|(column, _)| known(*column)) {
-                        (data(cell, shown - (0..column).filter(|c| known(*c)).count(), text(column)))
+                    @for (left, (k, _)) in (1..=heads.len()).rev().zip(&heads) {
+                        @if let Some(cell) = row.get(*k) { (data(cell, left, text(*k))) }
                     }
                 } } }
             } }
@@ -197,27 +190,9 @@ pub fn embedded(file: &str, text: &str, caption: impl Render) -> Markup {
     }
 }
 
-/// A part of a page, with a heading that is numbered and a link at the top of the page; where its body is empty it is not written at all.
-#[derive(Debug, Clone)]
-pub struct Section {
-    id: &'static str,
-    link: &'static str,
-    title: &'static str,
-    body: Markup,
-}
-
-impl Section {
-    /// A section with its anchor, the text of its link, its heading and what follows.
-    #[must_use]
-    pub fn new(id: &'static str, link: &'static str, title: &'static str, body: Markup) -> Self {
-        Section {
-            id,
-            link,
-            title,
-            body,
-        }
-    }
-}
+/// A part of a page: its anchor, the text of the link to it at the top of the page, its heading, which is numbered; and what follows. Where
+/// that is empty the part is not written at all.
+pub type Section = ([&'static str; 3], Markup);
 
 /// A page of numbered sections that are linked at its top, in the style of reports.
 #[derive(Debug, Clone)]
@@ -238,17 +213,17 @@ impl Page<'_> {
     /// Writes the page as the text of an HTML file that needs nothing but itself and the files it names.
     #[must_use]
     pub fn render(&self) -> String {
-        let shown = || self.sections.iter().filter(|s| !s.body.0.is_empty());
+        let shown = || self.sections.iter().filter(|(_, body)| !body.0.is_empty());
         let body = html! {
             h1 { (self.title) }
             (self.head)
             nav {
-                @for section in shown() { a href=(format!("#{}", section.id)) { (section.link) } " " }
+                @for ([id, link, _], _) in shown() { a href=(format!("#{id}")) { (link) } " " }
                 @for (file, text) in self.files { a href=(file) { (text) } " " }
             }
-            @for (k, section) in shown().enumerate() {
-                h2 id=(section.id) { (k + 1) ". " (section.title) }
-                (section.body)
+            @for (k, ([id, _, title], body)) in shown().enumerate() {
+                h2 id=(id) { (k + 1) ". " (title) }
+                (body)
             }
             (self.foot)
         };
@@ -330,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_page_links_what_it_has() {
-        let section = |id, body| Section::new(id, id, "Title", body);
+        let section = |id, body| ([id, id, "Title"], body);
         let page = Page {
             title: "A & B",
             head: html! {},

@@ -9,7 +9,7 @@ use ukcore::model::Entry;
 use ukcore::simulate::Sample;
 use ukcore::{Effort, Kinematics, State, kinematics as swept};
 
-use crate::columns::{Columns, labelled};
+use crate::columns::{self, Column, labelled};
 use crate::command;
 use crate::curves::Curves;
 use crate::failure::Failure;
@@ -90,8 +90,9 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         return Err(Failure::Failed(message));
     }
     if let Some(mut curves) = curves.transpose()? {
-        let states = found.postures.iter().map(|p| Sample::from(&p.state));
-        states.for_each(|sample| curves.add(sample));
+        for posture in &found.postures {
+            curves.add(&ready.mechanism, Sample::from(&posture.state));
+        }
         curves.finish()?;
     }
     let on: Vec<&str> = args.effort.iter().map(String::as_str).collect();
@@ -174,29 +175,24 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
 }
 
 fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()> {
-    let spec = ready.mechanism.spec();
-    let coords = || spec.coords.iter().copied();
-    let mut head = vec!["t".to_owned()];
-    head.extend(coords().map(str::to_owned));
-    head.extend(coords().map(|name| format!("dot({name})")));
-    head.extend(spec.outputs.iter().map(|o| o.name.to_owned()));
-    head.extend(coords().map(|name| format!("ddot({name})")));
-    head.extend(found.efforts.iter().map(|(name, _)| name.clone()));
-    writeln!(out, "{}", head.join(","))?;
-    let mut outputs = vec![0.0; spec.outputs.len()];
+    let mechanism = &ready.mechanism;
+    let columns = columns::of_state(mechanism);
+    let accelerations = mechanism.spec().coords.iter();
+    let names = columns.iter().map(|column| column.name.clone());
+    let names = names
+        .chain(accelerations.map(|name| format!("ddot({name})")))
+        .chain(found.efforts.iter().map(|(name, _)| name.clone()));
+    writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
     for (posture, efforts) in found.swept.postures.iter().zip(&found.values) {
-        let State { t, q, v } = &posture.state;
-        ready.mechanism.outputs(*t, q, v, &mut outputs);
-        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, efforts].concat();
-        let text = |x: f64| {
-            if x.is_finite() {
-                full(x)
-            } else {
-                String::new()
-            }
+        let values = columns::values(&columns, mechanism, Sample::from(&posture.state));
+        let values = [&values, &posture.acceleration, efforts]
+            .into_iter()
+            .flatten();
+        let text = |x: &f64| match x.is_finite() {
+            true => full(*x),
+            false => String::new(),
         };
-        let values: Vec<String> = values.into_iter().map(text).collect();
-        writeln!(out, "{}", values.join(","))?;
+        writeln!(out, "{}", values.map(text).collect::<Vec<_>>().join(","))?;
     }
     Ok(())
 }
@@ -231,15 +227,23 @@ fn summary(
     }
     let mut limits = found.swept.limits.iter();
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
-    let columns = Columns::of_interest(&ready.mechanism);
-    let mut labels = columns.labels();
-    labels.extend(found.efforts.iter().cloned().map(labelled));
+    let columns = columns::of_interest(&ready.mechanism);
+    let efforts = found
+        .efforts
+        .iter()
+        .map(|(name, unit)| labelled(name, unit));
+    let labels: Vec<String> = columns.iter().map(Column::label).chain(efforts).collect();
     let wide = width(labels.iter().map(String::as_str));
     let rows = postures
         .iter()
         .zip(&found.values)
         .map(|(posture, efforts)| {
-            [&columns.values(Sample::from(&posture.state)), &efforts[..]].concat()
+            let sample = Sample::from(&posture.state);
+            [
+                &columns::values(&columns, &ready.mechanism, sample)[..],
+                efforts,
+            ]
+            .concat()
         });
     let rows: Vec<Vec<f64>> = rows.collect();
     for (k, label) in labels.iter().enumerate() {

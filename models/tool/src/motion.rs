@@ -1,6 +1,6 @@
 //! How a motion is computed: the arguments that `run` and `animate` share, and the run itself.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use clap::Args;
 use ukcore::simulate::{Record, SMALLEST_TOLERANCE, Sample};
@@ -157,13 +157,14 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
 }
 
+/// Reads a whole number, which may be written as 1e9.
+pub(crate) fn whole(text: &str, range: Range<f64>) -> Option<f64> {
+    let number = text.trim().parse().ok();
+    number.filter(|x: &f64| range.contains(x) && x.fract() == 0.0)
+}
+
 pub(crate) fn steps(text: &str) -> Result<usize, String> {
-    let number = text
-        .trim()
-        .parse()
-        .ok()
-        .filter(|x: &f64| (1.0..1e18).contains(x) && x.fract() == 0.0);
-    let number = number.ok_or("a whole number of steps is needed, at least 1")?;
+    let number = whole(text, 1.0..1e18).ok_or("a whole number of steps is needed, at least 1")?;
     Ok(number as usize)
 }
 

@@ -1,5 +1,7 @@
 //! Numbers as text for reading.
 
+use serde_json::Number;
+
 pub use ukcore::numbers::{fixed, full, short, significant};
 
 /// A number of things in words: `1 step`, `2 steps`.
@@ -11,6 +13,14 @@ pub(crate) fn count(number: usize, thing: &str) -> String {
 /// The number of fifteen digits next to `value`: 0.3 for 0.1 + 2·0.1, as is meant by who writes fewer.
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
+}
+
+/// A number with the fewest digits that read back as the same one, as in JSON but for the sign of large powers: `0.0001`, `1e30`.
+pub(crate) fn exact(value: f64) -> String {
+    let number = Number::from_f64(value);
+    number.map_or(value.to_string(), |number| {
+        number.to_string().replace("e+", "e")
+    })
 }
 
 /// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.

@@ -245,19 +245,24 @@ impl Directory {
         write_whole(&self.file(name), |w| json(w, value))
     }
 
-    /// Writes `rows` as comma-separated values, under the names of their fields, to the whole file `name`.
+    /// Writes `rows` as comma-separated values to the whole file `name`. Each row has its cells under the names of their columns, which are
+    /// those of the first.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
-    pub fn csv<R: Serialize>(
+    pub fn csv(
         &self,
         name: &str,
-        rows: impl IntoIterator<Item = R>,
+        rows: impl IntoIterator<Item = Vec<(&'static str, String)>>,
     ) -> Result<(), Failure> {
         write_whole(&self.file(name), |w| {
             let mut table = csv::Writer::from_writer(w);
-            for row in rows {
-                table.serialize(row).map_err(io::Error::other)?;
+            for (k, row) in rows.into_iter().enumerate() {
+                let (names, cells): (Vec<_>, Vec<_>) = row.into_iter().unzip();
+                if k == 0 {
+                    table.write_record(names)?;
+                }
+                table.write_record(cells)?;
             }
             table.flush()
         })

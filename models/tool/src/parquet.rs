@@ -33,15 +33,9 @@ pub(crate) fn write(table: &Path, out: &Path) -> Result<(), Failure> {
     let broken = |e: &dyn Display| Failure::Failed(format!("cannot read {}: {e}", table.display()));
     let file = File::open(table).map_err(|e| broken(&e))?;
     let mut reader = csv::Reader::from_reader(file);
-    let names: Vec<String> = reader
-        .headers()
-        .map_err(|e| broken(&e))?
-        .iter()
-        .map(str::to_owned)
-        .collect();
+    let names = reader.headers().map_err(|e| broken(&e))?.clone();
     let failed = |e: ParquetError| Failure::Failed(format!("cannot write {}: {e}", out.display()));
-    let columns = names.iter().map(|name| column(name));
-    let columns: Result<Vec<TypePtr>, _> = columns.collect();
+    let columns: Result<Vec<TypePtr>, _> = names.iter().map(column).collect();
     let schema = columns.and_then(|columns| {
         Type::group_type_builder("sweep")
             .with_fields(columns)
@@ -79,7 +73,7 @@ fn column(name: &str) -> Result<TypePtr, ParquetError> {
 /// Writes these rows, column by column.
 fn group<W: Write + Send>(
     file: &mut SerializedFileWriter<W>,
-    names: &[String],
+    names: &StringRecord,
     rows: &[StringRecord],
 ) -> Result<(), ParquetError> {
     let mut group = file.next_row_group()?;
@@ -90,10 +84,10 @@ fn group<W: Write + Send>(
         let Some(column) = group.next_column()? else {
             break;
         };
-        if TEXT.contains(&name.as_str()) {
+        if TEXT.contains(&name) {
             let texts: Vec<_> = there.map(ByteArray::from).collect();
             fill::<ByteArrayType>(column, &known, &texts)?;
-        } else if WHOLE.contains(&name.as_str()) {
+        } else if WHOLE.contains(&name) {
             fill::<Int64Type>(column, &known, &numbers(name, there)?)?;
         } else {
             fill::<DoubleType>(column, &known, &numbers(name, there)?)?;

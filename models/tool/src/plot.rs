@@ -302,13 +302,13 @@ impl Chart {
                 8 + (ROW / 2 + ROW * (k % rows) as u32) as i32,
             );
             let style = series.colour.stroke_width(series.width * PARTS);
-            let line =
-                |from: i32, to: i32| PathElement::new([at(x + from, y), at(x + to, y)], style);
-            if series.dashed {
-                legend.draw(&line(0, 9))?;
-                legend.draw(&line(17, 26))?;
+            let dashes: &[(i32, i32)] = if series.dashed {
+                &[(0, 9), (17, 26)]
             } else {
-                legend.draw(&line(0, 26))?;
+                &[(0, 26)]
+            };
+            for (from, to) in dashes {
+                legend.draw(&PathElement::new([at(x + from, y), at(x + to, y)], style))?;
             }
             if series.dots > 0 {
                 let size = series.dots * PARTS;
@@ -427,16 +427,16 @@ fn decades(low: f64, high: f64) -> Vec<f64> {
 
 /// A whole power of ten.
 fn power(value: f64) -> String {
-    let digit = |c: char| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        // The others follow each other from U+2070 on.
-        c => char::from_u32(0x2070 + c.to_digit(10).unwrap_or(0)).unwrap_or(c),
+    let raised = |c: char| {
+        "-0123456789"
+            .find(c)
+            .and_then(|k| "⁻⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(k))
     };
     let exponent = format!("{:.0}", value.log10().round());
-    format!("10{}", exponent.chars().map(digit).collect::<String>())
+    format!(
+        "10{}",
+        exponent.chars().filter_map(raised).collect::<String>()
+    )
 }
 
 /// The smallest range of whole decades that holds all of `values` that are positive.

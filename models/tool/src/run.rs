@@ -169,7 +169,7 @@ impl Samples {
             self.broken = Some(sample.to_state());
         }
         if let Some(curves) = &mut self.curves {
-            curves.add(sample);
+            curves.add(mechanism, sample);
         }
         if let Some((film, _)) = &mut self.film {
             film.add(sample);

@@ -24,10 +24,10 @@ pub struct Runs {
     #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Relative and absolute tolerance of the integration, or several: `1e-4,1e-10`
-    #[arg(long, value_name = "TOLS", default_value = "1e-10", value_parser = tolerances, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TOLS", default_value = "1e-10", value_parser = list(motion::tolerance), allow_hyphen_values = true)]
     pub tol: List<f64>,
     /// Integration method, or several, as for `run`: `dop853`, `dopri5`, `radau5`, `rattle=STEP`
-    #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = methods)]
+    #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = list(motion::method))]
     pub method: List<Method>,
     /// Steps to give up after, such as 1e9
     #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps, allow_hyphen_values = true)]
@@ -196,14 +196,9 @@ fn assignment(text: &str) -> Result<(String, Values), String> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(pub Vec<T>);
 
-fn tolerances(text: &str) -> Result<List<f64>, String> {
-    let values: Result<_, _> = text.split(',').map(motion::tolerance).collect();
-    values.map(List)
-}
-
-fn methods(text: &str) -> Result<List<Method>, String> {
-    let values: Result<_, _> = text.split(',').map(motion::method).collect();
-    values.map(List)
+/// Reads values with commas between them, each as `one` does.
+fn list<T>(one: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<List<T>, String> + Clone {
+    move |text| text.split(',').map(one).collect::<Result<_, _>>().map(List)
 }
 
 fn ways(text: &str) -> Result<List<Stabilisation>, String> {

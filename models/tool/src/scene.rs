@@ -54,16 +54,16 @@ impl Place {
 }
 
 /// A mechanism with the parameters asked for, at the start asked for.
-pub(crate) struct Ready<'a> {
+pub struct Ready<'a> {
     pub(crate) entry: &'a Entry,
     /// With its parameters.
-    pub(crate) mechanism: Prepared,
+    pub mechanism: Prepared,
     /// Name of the start; `"assembled"` where it was found from a guess.
-    pub(crate) start: &'static str,
+    pub start: &'static str,
     /// The state there.
-    pub(crate) state: State,
+    pub state: State,
     /// How long a typical run from it lasts, s.
-    pub(crate) duration: f64,
+    pub duration: f64,
 }
 
 impl Scene {
@@ -71,14 +71,27 @@ impl Scene {
     /// that which are as near, notes on standard error tell them.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
-    /// nothing near the guess satisfies the constraints.
+    /// What [`Start::ready`] reports, and [`Failure::Usage`] for an unknown model.
     pub(crate) fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
         self.start.noted(find(models, &self.model)?)
     }
 }
 
 impl Start {
+    /// The start called `name`, the first one if there is no name, with these parameters and options.
+    pub fn with(name: Option<&str>, settings: &[(&str, f64)]) -> Self {
+        let settings = settings
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), (*value).into()));
+        Start {
+            settings: settings.collect(),
+            place: Place {
+                start: name.map(str::to_owned),
+                ..Place::default()
+            },
+        }
+    }
+
     /// Whether nothing is asked for, so that the model is taken as it is.
     pub(crate) fn is_default(&self) -> bool {
         self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
@@ -94,7 +107,11 @@ impl Start {
     }
 
     /// Sets the parameters of `entry` and puts it together at its start.
-    pub(crate) fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
+    /// nothing near the guess satisfies the constraints.
+    pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let (mechanism, start, options) = self.settings(entry)?;
         let (name, state) = match start.filter(|_| !self.guesses()) {
             Some(spec) => (spec.name, entry.start(&mechanism, spec.name, &options)?),

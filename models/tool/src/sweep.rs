@@ -14,9 +14,9 @@ use std::sync::{Mutex, PoisonError};
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use ukcore::model::{Entry, StartSpec};
-use ukcore::simulate::{Drift, Ending};
+use ukcore::simulate::{Drift, Ending, Sample};
 
-use crate::columns::Columns;
+use crate::columns::{self, Column};
 use crate::command::{self, find};
 use crate::failure::Failure;
 use crate::html::joined;
@@ -74,8 +74,8 @@ const MOST: usize = 1_000_000;
 pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let entry = find(models, &args.model)?;
     let columns = match args.of.is_empty() {
-        true => Columns::of_interest(&entry.mechanism),
-        false => Columns::named(&entry.mechanism, &args.of)?,
+        true => columns::of_interest(&entry.mechanism),
+        false => columns::named(&entry.mechanism, &args.of)?,
     };
     let plan = Plan {
         entry,
@@ -186,7 +186,7 @@ const LAST: [&str; 7] = [
 struct Plan<'a> {
     entry: &'a Entry,
     members: Vec<Variant>,
-    columns: Columns,
+    columns: Vec<Column>,
     every: Option<f64>,
 }
 
@@ -209,7 +209,7 @@ impl Plan<'_> {
         let params = self.entry.mechanism.spec().params;
         head.extend(params.iter().map(|p| own("set", p.name)));
         head.extend(SETTINGS.map(str::to_owned));
-        for name in self.columns.names() {
+        for Column { name, .. } in &self.columns {
             head.push(own("end", name));
             for what in ["min", "t_min", "max", "t_max"] {
                 head.push(format!("{what}({name})"));
@@ -249,21 +249,20 @@ impl Plan<'_> {
         let ready = match chosen.start.ready(self.entry) {
             Ok(ready) => ready,
             Err(failure) => {
-                let missing = 1 + 5 * self.columns.names().count() + 6;
+                let missing = 1 + 5 * self.columns.len() + 6;
                 row.extend(std::iter::repeat_n(String::new(), missing));
                 row.push(failure.message());
                 return line(&row).map(Some);
             }
         };
-        // Outputs depend on parameters, which are those of this run.
-        let columns = self.columns.with(&ready.mechanism);
-        let mut extremes = vec![Extremes::default(); columns.names().count()];
+        let values = |sample: Sample<'_>| columns::values(&self.columns, &ready.mechanism, sample);
+        let mut extremes = vec![Extremes::default(); self.columns.len()];
         let mut drift = Drift::new(&ready.mechanism);
         let mut last = Vec::new();
         let (motion, ignore) = (&chosen.motion, |_| {});
         let every = motion.interval(&ready, self.every, INTERVALS)?;
         let (trajectory, error) = motion.stream(&ready, every, interrupt, ignore, |sample| {
-            last = columns.values(sample);
+            last = values(sample);
             for (extremes, value) in extremes.iter_mut().zip(&last) {
                 extremes.add(sample.t, *value);
             }
@@ -276,7 +275,7 @@ impl Plan<'_> {
         }
         // That of a run which fails is behind the last sample.
         if let Some(end) = trajectory.last().filter(|_| !last.is_empty()) {
-            last = columns.values(end);
+            last = values(end);
         }
         row.push(trajectory.last().map_or(String::new(), |end| number(end.t)));
         last.resize(extremes.len(), f64::NAN);

@@ -18,6 +18,9 @@ pub(crate) enum Look {
     Everywhere,
 }
 
+/// Ways that are noted, at most.
+const NOTES: usize = 3;
+
 /// A start as it was put together, and the ways that are as near.
 pub(crate) struct Ways {
     found: Assembled,
@@ -54,12 +57,7 @@ impl Start {
             guessed,
         }))
     }
-}
 
-/// Ways that are noted, at most.
-const NOTES: usize = 3;
-
-impl Start {
     /// A sentence for each way that assembly sees to put together what stands there as near to what was asked for.
     pub(crate) fn other_ways(&self, ready: &Ready<'_>) -> Vec<String> {
         // A start that is given by other means need not be declared so that it can be assembled.

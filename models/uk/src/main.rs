@@ -4,12 +4,11 @@
 
 mod paper;
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use uktool::command::{self, HELP};
-
-use paper::PaperArgs;
 
 /// Dynamics of constrained multibody systems after Udwadia and Kalaba.
 ///
@@ -25,7 +24,11 @@ struct Cli {
 #[expect(clippy::large_enum_variant, reason = "one is made, once")]
 enum Command {
     /// Reproduce the paper (Zhao, Zhen & Chen 2013): tables, figures and a verdict on each claim
-    Paper(PaperArgs),
+    Paper {
+        /// Directory to write index.html, paper.json, figures and CSV files to
+        #[arg(long, value_name = "DIR", default_value = paper::OUT, value_parser = command::path)]
+        out: PathBuf,
+    },
     #[command(flatten)]
     Tool(command::Command),
 }
@@ -33,8 +36,8 @@ enum Command {
 fn main() -> ExitCode {
     let cli: Cli = command::parse();
     command::exit(match cli.command {
-        None => paper::paper(&PaperArgs::default()),
-        Some(Command::Paper(args)) => paper::paper(&args),
+        None => paper::paper(Path::new(paper::OUT)),
+        Some(Command::Paper { out }) => paper::paper(&out),
         Some(Command::Tool(command)) => command.run(&models::entries()),
     })
 }
@@ -54,9 +57,9 @@ mod tests {
         let cli = Cli::try_parse_from(["uk"]).expect("arguments");
         assert!(cli.command.is_none());
         let cli = Cli::try_parse_from(["uk", "paper"]).expect("arguments");
-        let Some(Command::Paper(paper)) = cli.command else {
+        let Some(Command::Paper { out }) = cli.command else {
             panic!("not the paper")
         };
-        assert_eq!(paper.out, PaperArgs::default().out);
+        assert_eq!(out, Path::new(paper::OUT));
     }
 }

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::study::Study;
+use super::study::{Curve, Figures, Point, Study};
+use crate::numbers::exact;
 
 /// All that is measured.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -30,72 +31,45 @@ pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest
      the reference, both scaled; residuals and energy drift: largest over all steps; knob: tolerance of the integration; seconds: median \
      of the repeats, quartiles beside it.";
 
-/// A row of report.csv.
-#[derive(Debug, Serialize)]
-pub(super) struct Line<'a> {
-    motion: &'a str,
-    model: &'a str,
-    end: f64,
-    combination: &'a str,
-    knob: f64,
-    seconds: Option<f64>,
-    lower_quartile: Option<f64>,
-    upper_quartile: Option<f64>,
-    repeats: Option<usize>,
-    evaluations: Option<usize>,
-    jacobians: Option<usize>,
-    factorisations: Option<usize>,
-    steps: Option<usize>,
-    rejected: Option<usize>,
-    projections: Option<usize>,
-    fallbacks: Option<usize>,
-    error: Option<f64>,
-    error_in_units: Option<f64>,
-    error_along: Option<f64>,
-    reference_error: Option<f64>,
-    off: Option<f64>,
-    within: Option<f64>,
-    position_residual: Option<f64>,
-    velocity_residual: Option<f64>,
-    energy_drift: Option<f64>,
-    failure: &'a str,
+/// The rows of report.csv of a motion, one a run.
+pub(super) fn rows(study: &Study) -> impl Iterator<Item = Vec<(&'static str, String)>> {
+    let runs = study.curves.iter();
+    let runs = runs.flat_map(|curve| curve.points.iter().map(move |point| (curve, point)));
+    runs.map(|(curve, point)| row(study, curve, point))
 }
 
-/// The rows of a motion, one a run.
-pub(super) fn lines(study: &Study) -> impl Iterator<Item = Line<'_>> {
-    let points = study
-        .curves
-        .iter()
-        .flat_map(|c| c.points.iter().map(move |p| (c, p)));
-    points.map(|(curve, point)| {
-        let f = point.figures.as_ref();
-        Line {
-            motion: &study.name,
-            model: &study.model,
-            end: study.end,
-            combination: &curve.variant,
-            knob: point.knob,
-            seconds: f.map(|f| f.seconds),
-            lower_quartile: f.map(|f| f.quartiles.0),
-            upper_quartile: f.map(|f| f.quartiles.1),
-            repeats: f.map(|f| f.repeats),
-            evaluations: f.map(|f| f.evaluations),
-            jacobians: f.map(|f| f.jacobians),
-            factorisations: f.map(|f| f.factorisations),
-            steps: f.map(|f| f.steps),
-            rejected: f.map(|f| f.rejected),
-            projections: f.map(|f| f.projections),
-            fallbacks: f.map(|f| f.fallbacks),
-            error: f.map(|f| f.error),
-            error_in_units: f.map(|f| f.error_in_units),
-            error_along: f.map(|f| f.error_along),
-            reference_error: f.map(|_| study.reference.floor),
-            off: f.and_then(|f| f.off),
-            within: f.and_then(|f| f.within),
-            position_residual: f.map(|f| f.drift.position_residual),
-            velocity_residual: f.map(|f| f.drift.velocity_residual),
-            energy_drift: f.and_then(|f| f.drift.energy_drift),
-            failure: point.failure.as_deref().unwrap_or_default(),
-        }
-    })
+fn row(study: &Study, curve: &Curve, point: &Point) -> Vec<(&'static str, String)> {
+    let figures = point.figures.as_ref();
+    let known = |of: fn(&Figures) -> Option<f64>| figures.and_then(of).map_or(String::new(), exact);
+    let number = |of: fn(&Figures) -> f64| figures.map_or(String::new(), |f| exact(of(f)));
+    let count = |of: fn(&Figures) -> usize| figures.map_or(String::new(), |f| of(f).to_string());
+    let floor = figures.map_or(String::new(), |_| exact(study.reference.floor));
+    vec![
+        ("motion", study.name.clone()),
+        ("model", study.model.clone()),
+        ("end", exact(study.end)),
+        ("combination", curve.variant.clone()),
+        ("knob", exact(point.knob)),
+        ("seconds", number(|f| f.seconds)),
+        ("lower_quartile", number(|f| f.quartiles.0)),
+        ("upper_quartile", number(|f| f.quartiles.1)),
+        ("repeats", count(|f| f.repeats)),
+        ("evaluations", count(|f| f.evaluations)),
+        ("jacobians", count(|f| f.jacobians)),
+        ("factorisations", count(|f| f.factorisations)),
+        ("steps", count(|f| f.steps)),
+        ("rejected", count(|f| f.rejected)),
+        ("projections", count(|f| f.projections)),
+        ("fallbacks", count(|f| f.fallbacks)),
+        ("error", number(|f| f.error)),
+        ("error_in_units", number(|f| f.error_in_units)),
+        ("error_along", number(|f| f.error_along)),
+        ("reference_error", floor),
+        ("off", known(|f| f.off)),
+        ("within", known(|f| f.within)),
+        ("position_residual", number(|f| f.drift.position_residual)),
+        ("velocity_residual", number(|f| f.drift.velocity_residual)),
+        ("energy_drift", known(|f| f.drift.energy_drift)),
+        ("failure", point.failure.clone().unwrap_or_default()),
+    ]
 }

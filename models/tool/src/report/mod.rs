@@ -27,10 +27,9 @@ use crate::numbers;
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 use crate::scene::Start;
-use crate::units::Quantity;
 
 use export::Report;
-pub(crate) use truth::{distance, grow, scale, states};
+pub(crate) use truth::{largest, scale, states};
 
 /// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
@@ -176,15 +175,13 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         jobs.push(job(entry.id.clone(), None));
     }
     for variation in entry.variations {
-        let varied = variation.iter();
-        let settings = varied.clone();
-        let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
-        let words = joined(varied.map(|(name, value)| format!("{name} {value:e}")));
+        let words = joined(
+            variation
+                .iter()
+                .map(|(name, value)| format!("{name} {value:e}")),
+        );
         jobs.push(Job {
-            start: Start {
-                settings: settings.collect(),
-                ..Start::default()
-            },
+            start: Start::with(None, variation),
             ..job(format!("{} with {words}", entry.id), None)
         });
     }
@@ -221,7 +218,7 @@ fn write_all(directory: &Directory, report: &Report) -> Result<(), Failure> {
         }
     }
     directory.json("report.json", report)?;
-    directory.csv("report.csv", report.studies.iter().flat_map(export::lines))?;
+    directory.csv("report.csv", report.studies.iter().flat_map(export::rows))?;
     directory.write("index.html", page::html(report))
 }
 

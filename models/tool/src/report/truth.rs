@@ -26,7 +26,7 @@ const INTERVALS: u32 = 12;
 #[derive(Debug, Clone)]
 pub(super) struct Truth {
     pub(super) source: String,
-    /// Largest error that the states may have, in the norm of [`Truth::errors`].
+    /// Largest error that the states may have, in the norm of [`Truth::distance`].
     pub(super) floor: f64,
     /// Times of the states, in order.
     pub(super) times: Vec<f64>,
@@ -38,9 +38,9 @@ pub(super) struct Truth {
 
 /// The distance of two states.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Distance {
+pub(super) struct Distance {
     /// Largest difference as a part of the size of the coordinate's kind.
-    pub(crate) scaled: f64,
+    pub(super) scaled: f64,
     /// Largest difference, in units of the coordinates.
     pub(super) absolute: f64,
 }
@@ -138,21 +138,16 @@ impl Truth {
 
     /// Largest scaled distance of states at the same times.
     pub(super) fn largest(&self, states: &[Vec<f64>]) -> f64 {
-        let scaled = |(k, state): (usize, &Vec<f64>)| self.errors(k, state).scaled;
-        states.iter().enumerate().map(scaled).fold(0.0, f64::max)
+        largest(states, &self.states, &self.scale)
     }
 
     pub(super) fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    pub(super) fn last(&self) -> usize {
-        self.times.len().saturating_sub(1)
-    }
-
-    /// Distance of (q, q̇) from state number `index`.
-    pub(super) fn errors(&self, index: usize, state: &[f64]) -> Distance {
-        self.distance(state, &self.states[index])
+    /// Distance of (q, q̇) from the last of the states.
+    pub(super) fn at_end(&self, state: &[f64]) -> Distance {
+        self.distance(state, &self.states[self.states.len() - 1])
     }
 
     /// Distance of two (q, q̇).
@@ -162,7 +157,7 @@ impl Truth {
 }
 
 /// Distance of two (q, q̇) whose coordinates have the sizes `scale`.
-pub(crate) fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
+fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
     let mut distance = Distance {
         scaled: 0.0,
         absolute: 0.0,
@@ -175,8 +170,17 @@ pub(crate) fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
     distance
 }
 
+/// The largest distance of states that belong to each other, in units of the sizes of their coordinates.
+pub(crate) fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
+    let mut largest = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        grow(&mut largest, distance(a, b, scale).scaled);
+    }
+    largest
+}
+
 /// Takes the larger one; what is no number stays.
-pub(crate) fn grow(so_far: &mut f64, value: f64) {
+fn grow(so_far: &mut f64, value: f64) {
     if value.is_nan() || value > *so_far {
         *so_far = value;
     }
@@ -277,7 +281,7 @@ mod tests {
         let shipped = Truth::shipped(mechanism.spec(), &start(), &closed());
         let computed = Truth::computed(&mechanism, &start(), shipped.times.clone());
         let computed = computed.expect("the runs succeed");
-        let error = shipped.errors(shipped.last(), &computed.states[computed.last()]);
+        let error = shipped.at_end(&computed.states[computed.states.len() - 1]);
         let bound = 3.0 * (shipped.floor + computed.floor);
         assert!(error.scaled < bound, "{error:?} {bound:e}");
     }
@@ -285,7 +289,7 @@ mod tests {
     #[test]
     fn a_state_that_is_no_number_is_infinitely_far_or_not_a_number() {
         let truth = Truth::shipped(Oscillator::SPEC, &start(), &closed());
-        let distance = truth.errors(0, &[f64::NAN, 0.0]);
+        let distance = truth.at_end(&[f64::NAN, 0.0]);
         assert!(distance.scaled.is_nan() && distance.absolute.is_nan());
         assert!(truth.floor < 1e-13);
     }

@@ -1,5 +1,6 @@
 //! A case: something swept over a range, and how far the results are off at each value.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -38,15 +39,15 @@ impl Effort {
 }
 
 /// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
-pub type Measure<'a> = &'a (dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync);
+pub type Measure<'a> = Box<dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync + 'a>;
 
 /// A case: one thing that is swept, what results are compared with, and what counts as right.
-#[derive(Clone, Serialize)]
+#[derive(Serialize)]
 pub struct Case<'a> {
     /// Name on the command line.
     pub id: &'a str,
     /// What is swept, in what mechanism.
-    pub swept: &'a str,
+    pub swept: Cow<'a, str>,
     /// What the results are compared with.
     pub oracle: &'a str,
     /// Errors up to this are full accuracy.
@@ -60,6 +61,48 @@ pub struct Case<'a> {
     /// The error at a value.
     #[serde(skip)]
     pub measure: Measure<'a>,
+}
+
+impl<'a> Case<'a> {
+    /// A case called `id`, with the error at a value. What it sweeps, and what counts as right, the methods below say.
+    pub fn new(
+        id: &'a str,
+        measure: impl Fn(f64, &mut Effort) -> Result<f64, Error> + Sync + 'a,
+    ) -> Self {
+        Case {
+            id,
+            swept: Cow::default(),
+            oracle: "",
+            accurate: 0.0,
+            bound: 0.0,
+            sweep: Sweep::of(&[]),
+            measure: Box::new(measure),
+        }
+    }
+
+    /// What is swept, in what mechanism.
+    pub fn swept(mut self, swept: impl Into<Cow<'a, str>>) -> Self {
+        self.swept = swept.into();
+        self
+    }
+
+    /// The values.
+    pub fn over(mut self, sweep: Sweep) -> Self {
+        self.sweep = sweep;
+        self
+    }
+
+    /// What the results are compared with.
+    pub fn against(mut self, oracle: &'a str) -> Self {
+        self.oracle = oracle;
+        self
+    }
+
+    /// Errors up to which results are accurate, and degraded.
+    pub fn within(mut self, accurate: f64, bound: f64) -> Self {
+        (self.accurate, self.bound) = (accurate, bound);
+        self
+    }
 }
 
 /// Values in order, and which of them is the ordinary one from which the others move away.
@@ -339,15 +382,11 @@ mod tests {
 
     #[test]
     fn values_are_accurate_degraded_wrong_or_refused() {
-        let case = Case {
-            id: "newton",
-            swept: "a number whose root is sought",
-            oracle: "the root",
-            accurate: 1e-12,
-            bound: 1e-3,
-            sweep: decades(0, 12, 1, 0),
-            measure: &newton,
-        };
+        let case = Case::new("newton", newton)
+            .swept("a number whose root is sought")
+            .over(decades(0, 12, 1, 0))
+            .against("the root")
+            .within(1e-12, 1e-3);
         let row = case
             .row(Interrupt::catch().expect("a handler"), || ())
             .expect("not interrupted");

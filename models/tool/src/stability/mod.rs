@@ -21,7 +21,7 @@ use ukcore::Error;
 use crate::command::{self, HELP};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::numbers;
+use crate::numbers::{self, exact};
 use crate::output::{self, Directory};
 use crate::progress::Progress;
 
@@ -63,22 +63,6 @@ impl Stability<'_> {
 
 const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
 
-/// A row of stability.csv.
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    value: f64,
-    label: &'a str,
-    class: &'a str,
-    error: Option<f64>,
-    refusal: &'a str,
-    message: &'a str,
-    steps: usize,
-    evaluations: usize,
-    fallbacks: usize,
-    seconds: f64,
-}
-
 /// A whole program: reads the command line and runs these cases.
 #[must_use]
 pub fn main(cases: &[Case<'_>]) -> ExitCode {
@@ -108,7 +92,7 @@ fn sweep(chosen: &[&Case<'_>], subject: &str, out: &Path) -> Result<(), Failure>
     };
     directory.write("stability.svg", picture::picture(&report.cases)?)?;
     directory.json("stability.json", &report)?;
-    directory.csv("stability.csv", report.cases.iter().flat_map(lines))?;
+    directory.csv("stability.csv", report.cases.iter().flat_map(table))?;
     directory.write("index.html", page::html(&report))?;
     print(&directory, &report)?;
     if !report.complete {
@@ -157,23 +141,23 @@ fn compute<'a>(cases: &[&'a Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
     rows.into_iter().flatten().collect()
 }
 
-fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
+/// The rows of stability.csv of a case, one a value.
+fn table(row: &Row<'_>) -> impl Iterator<Item = Vec<(&'static str, String)>> {
     row.points.iter().map(|p| {
-        let refusal = p.refusal.as_ref();
-        let (refusal, message) = refusal.map_or(("", ""), |(name, told)| (*name, told));
-        Line {
-            case: row.case.id,
-            value: p.value,
-            label: &p.label,
-            class: p.class.word(),
-            error: p.error,
-            refusal,
-            message,
-            steps: p.effort.steps,
-            evaluations: p.effort.evaluations,
-            fallbacks: p.effort.fallbacks,
-            seconds: p.seconds,
-        }
+        let (refusal, message) = p.refusal.clone().unwrap_or_default();
+        vec![
+            ("case", row.case.id.to_owned()),
+            ("value", exact(p.value)),
+            ("label", p.label.clone()),
+            ("class", p.class.word().to_owned()),
+            ("error", p.error.map_or(String::new(), exact)),
+            ("refusal", refusal.to_owned()),
+            ("message", message),
+            ("steps", p.effort.steps.to_string()),
+            ("evaluations", p.effort.evaluations.to_string()),
+            ("fallbacks", p.effort.fallbacks.to_string()),
+            ("seconds", exact(p.seconds)),
+        ]
     })
 }
 

@@ -13,7 +13,7 @@ use crate::command;
 use crate::failure::Failure;
 use crate::motion;
 use crate::numbers::short;
-use crate::report::{distance, grow, scale, states};
+use crate::report::{largest, scale, states};
 use crate::scene::{Ready, Scene};
 
 /// The command-line arguments of the command `stability` of a model, to be flattened into a parser of `clap`.
@@ -58,68 +58,45 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     let length = short(args.until.unwrap_or(ready.duration), 6);
     let about = format!("`{id}` from `{from}`, {length} s");
     let subject = Subject::new(ready, start.map(|start| (start.name, options)), args.until);
-    let mut sweeps = Vec::new();
     let spec = subject.ready.mechanism.spec();
     // No two cases have one name.
     let free = |name, instead| match spec.params.iter().any(|p| p.name == name) {
         true => instead,
         false => name,
     };
-    let mut add = |id, swept: String, values, change| sweeps.push((id, swept, values, change));
-    let usual = subject.ready.mechanism.parameters().iter();
-    for (i, (parameter, value)) in spec.params.iter().zip(usual).enumerate() {
-        if *value != 0.0 {
-            let swept = format!("parameter {}, times what it is", parameter.name);
-            add(
-                parameter.name,
-                swept,
-                decades(-12, 12, 3, 0),
-                Change::Parameter(i),
-            );
-        }
-    }
-    if subject.ready.state.v.iter().any(|v| *v != 0.0) {
-        let swept = "velocities of the start, times what they are".to_owned();
-        add(
-            free("speed", "start-speed"),
-            swept,
-            decades(-6, 6, 2, 0),
-            Change::Speed,
-        );
-    }
-    let swept = "tolerance; errors are in units of it".to_owned();
-    let tolerances = Sweep {
-        ordinary: 6,
-        ..decades(-3, -15, 1, -9)
-    };
-    add(
-        free("tolerance", "run-tolerance"),
-        swept,
-        tolerances,
-        Change::Tolerance,
-    );
-    let measures = sweeps.iter().map(|(.., change)| {
-        let subject = &subject;
-        move |value: f64, effort: &mut Effort| subject.error(*change, value, effort)
-    });
-    let measures: Vec<_> = measures.collect();
-    let cases = sweeps.iter().zip(&measures);
-    let cases = cases.map(|((id, swept, values, change), measure)| {
+    let mut cases = Vec::new();
+    let mut add = |id, swept: String, sweep, change| {
         let (accurate, bound) = match change {
             Change::Tolerance => (GATHERED, BOUND / TOLERANCE),
             _ => (GATHERED * TOLERANCE, BOUND),
         };
-        Case {
-            id,
-            swept,
-            oracle: ORACLE,
-            accurate,
-            bound,
-            sweep: values.clone(),
-            measure,
+        let subject = &subject;
+        let case = Case::new(id, move |value, effort| {
+            subject.error(change, value, effort)
+        });
+        let case = case.swept(swept).over(sweep).against(ORACLE);
+        cases.push(case.within(accurate, bound));
+    };
+    let usual = subject.ready.mechanism.parameters().iter();
+    for (i, (parameter, value)) in spec.params.iter().zip(usual).enumerate() {
+        if *value != 0.0 {
+            let name = parameter.name;
+            let swept = format!("parameter {name}, times what it is");
+            add(name, swept, decades(-12, 12, 3, 0), Change::Parameter(i));
         }
-    });
-    let cases: Vec<Case<'_>> = cases.collect();
+    }
+    if subject.ready.state.v.iter().any(|v| *v != 0.0) {
+        let swept = "velocities of the start, times what they are".to_owned();
+        let id = free("speed", "start-speed");
+        add(id, swept, decades(-6, 6, 2, 0), Change::Speed);
+    }
+    let tolerances = Sweep {
+        ordinary: 6,
+        ..decades(-3, -15, 1, -9)
+    };
+    let swept = "tolerance; errors are in units of it".to_owned();
+    let id = free("tolerance", "run-tolerance");
+    add(id, swept, tolerances, Change::Tolerance);
     sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)
 }
 
@@ -271,13 +248,7 @@ impl Motion<'_> {
     /// (q, q̇) at the instants after `start` of the motion from there.
     fn by(&self, way: Way, start: &State, effort: &mut Effort) -> Result<Vec<Vec<f64>>, Error> {
         let forward = self.times[self.times.len() - 1] >= start.t;
-        let later = |t: &&f64| {
-            if forward {
-                **t > start.t
-            } else {
-                **t < start.t
-            }
-        };
+        let later = |t: &&f64| **t != start.t && (**t > start.t) == forward;
         let times: Vec<f64> = self.times.iter().filter(later).copied().collect();
         let until = times.last().copied().unwrap_or(start.t);
         let simulation = Simulation::new(self.mechanism)
@@ -309,15 +280,6 @@ impl Motion<'_> {
         let known = &known[known.len() - changed.len()..];
         Ok(largest(&changed, known, scale) / NUDGE)
     }
-}
-
-/// The largest difference of states, in units of the sizes of their coordinates.
-fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
-    let mut largest = 0.0;
-    for (a, b) in a.iter().zip(b) {
-        grow(&mut largest, distance(a, b, scale).scaled);
-    }
-    largest
 }
 
 #[cfg(test)]

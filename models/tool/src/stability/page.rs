@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::Stability;
 use super::case::{Class, Point, Row};
-use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, table};
+use crate::html::{Cell, Page, figure_of, fixed, message, power_of_ten, table};
 
 pub(super) fn html(report: &Stability<'_>) -> String {
     let cases = html! { (picture()) (summary(&report.cases)) };
@@ -17,8 +17,8 @@ pub(super) fn html(report: &Stability<'_>) -> String {
             ("stability.csv", "CSV"),
         ],
         sections: vec![
-            Section::new("cases", "Cases", "Cases", cases),
-            Section::new("values", "Every value", "Every value", every),
+            (["cases", "Cases", "Cases"], cases),
+            (["values", "Every value", "Every value"], every),
         ],
         foot: html! {},
     };

@@ -1,13 +1,13 @@
 //! Case 1: the falling U-chain (§3-5), one run for each initial separation.
 
 use models::uchain::{TABLE_1, TableRow};
-use models::{Model, StartOptions, UChain};
-use serde::Serialize;
+use models::{Model, UChain};
+use serde::{Serialize, Serializer};
+use serde_json::json;
 use ukcore::Event;
 use ukcore::simulate::Direction;
-use uktool::command;
 use uktool::failure::Failure;
-use uktool::scene::{Place, Start};
+use uktool::scene::Start;
 
 use super::measure;
 use super::motion::{self, Motion, RunRow, times};
@@ -57,27 +57,27 @@ pub(super) struct ChainRow {
     /// Greatest downward pull of gravity and upward pull of the chain compared: (g − peak)/g, in weights of a particle.
     pub(super) pull: f64,
     /// As printed.
-    pub(super) paper: Printed,
+    #[serde(serialize_with = "printed")]
+    pub(super) paper: TableRow,
 }
 
-/// The paper's row.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Printed {
-    /// Greatest fall.
-    pub(super) h_max: f64,
-    /// Its time, s.
-    pub(super) t_max: f64,
-    /// Fall of a free body.
-    pub(super) free_fall: f64,
-    /// Figure with ÿ1.
-    pub(super) figure: u32,
+/// What is printed, without x0, which the row has.
+fn printed<S: Serializer>(row: &TableRow, to: S) -> Result<S::Ok, S::Error> {
+    let TableRow {
+        h_max,
+        t_max,
+        free_fall,
+        figure,
+        ..
+    } = row;
+    json!({ "h_max": h_max, "t_max": t_max, "free_fall": free_fall, "figure": figure })
+        .serialize(to)
 }
 
 /// A run, its numbers and its curves.
 pub(super) struct Chain {
     pub(super) row: ChainRow,
     pub(super) run: RunRow,
-    pub(super) csv: Vec<u8>,
     /// (t, ÿ1).
     pub(super) acceleration: Vec<(f64, f64)>,
     /// (t, y1).
@@ -98,13 +98,7 @@ pub(super) const FILM: &str = "chain-falling.html";
 pub(super) fn film() -> Result<String, Failure> {
     let [first, .., last] = TABLE_1;
     let runs = [first, last].map(|row| {
-        let start = Start {
-            place: Place {
-                start: Some(PAPER_START.to_owned()),
-                ..Place::default()
-            },
-            settings: vec![("x0".to_owned(), row.x0.into())],
-        };
+        let start = Start::with(Some(PAPER_START), &[("x0", row.x0)]);
         (format!("x0 = {} m", row.x0), start)
     });
     motion::film(UChain::ID, runs, UNTIL)
@@ -120,13 +114,10 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
         PAPER_START => format!("uchain-{x0}"),
         other => format!("uchain-{other}-{x0}"),
     };
-    let models = models::entries();
-    let entry = command::find(&models, UChain::ID)?;
-    let options = StartOptions::new().with("x0", x0);
-    let start = entry.start(&entry.mechanism, start, &options)?;
+    let start = Start::with(Some(start), &[("x0", x0)]);
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
-    let (mut motion, run) = Motion::new(&name, &entry.mechanism, start, UNTIL, Some(turn))?;
-    let hit = motion.trajectory().events("turn")?.next().ok_or_else(|| {
+    let (mut motion, run) = Motion::new(&name, UChain::ID, &start, UNTIL, Some(turn))?;
+    let hit = motion.trajectory.events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"
         ))
@@ -172,12 +163,7 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
         mean_above_g: excess.iter().sum::<f64>() / count,
         part_above_g: excess.iter().filter(|a| **a > 0.0).count() as f64 / count,
         pull: (g - peak) / g,
-        paper: Printed {
-            h_max: printed.h_max,
-            t_max: printed.t_max,
-            free_fall: printed.free_fall,
-            figure: printed.figure,
-        },
+        paper: *printed,
     };
     let snapshots = SNAPSHOTS
         .into_iter()
@@ -187,7 +173,6 @@ pub(super) fn compute(start: &str, printed: &TableRow) -> Result<Chain, Failure>
     Ok(Chain {
         row,
         run,
-        csv: motion.csv()?,
         acceleration,
         fall,
         path,

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use models::{FishRobot, Model, StartOptions};
+use models::{FishRobot, Model};
 use serde::Serialize;
-use uktool::command;
 use uktool::failure::Failure;
 use uktool::scene::Start;
 
@@ -57,10 +56,11 @@ pub(super) fn gaits() -> Vec<Gait> {
 }
 
 impl Gait {
-    /// Names and values of the parameters that drive peduncle and fin.
-    fn parameters(self) -> [(&'static str, f64); 4] {
+    /// The fish at its start, with the parameters that drive peduncle and fin.
+    fn start(self) -> Start {
         let (omega, phi) = (self.omega_pi * PI, self.phi_deg.to_radians());
-        [("a2", A2), ("a3", self.a3), ("w", omega), ("phi", phi)]
+        let driven = [("a2", A2), ("a3", self.a3), ("w", omega), ("phi", phi)];
+        Start::with(Some("table3"), &driven)
     }
 
     /// Which of the sweeps it belongs to: amplitude, frequency, phase.
@@ -123,7 +123,6 @@ pub(super) struct FishRow {
 pub(super) struct Fish {
     pub(super) row: FishRow,
     pub(super) run: RunRow,
-    pub(super) csv: Vec<u8>,
     /// (t, −ẋ1).
     pub(super) speed: Vec<(f64, f64)>,
     /// (t, ẍ1).
@@ -139,12 +138,7 @@ pub(super) const FILM: &str = "fish-swimming.html";
 pub(super) fn film() -> Result<String, Failure> {
     let [first, .., last] = AMPLITUDES;
     let runs = [first, last].map(|a3| {
-        let settings = Gait { a3, ..BASE }.parameters();
-        let settings = settings.map(|(name, value)| (name.to_owned(), value.into()));
-        let start = Start {
-            settings: settings.to_vec(),
-            ..Start::default()
-        };
+        let start = Gait { a3, ..BASE }.start();
         (format!("A3 = {a3}"), start)
     });
     motion::film(FishRobot::ID, runs, WINDOW.1)
@@ -154,14 +148,7 @@ pub(super) fn film() -> Result<String, Failure> {
 pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     let name = format!("fish-a{}-w{}pi-phi{}", gait.a3, gait.omega_pi, gait.phi_deg);
     let omega = gait.omega_pi * PI;
-    let models = models::entries();
-    let entry = command::find(&models, FishRobot::ID)?;
-    let mut mechanism = entry.mechanism.clone();
-    for (name, value) in gait.parameters() {
-        mechanism.set(name, value)?;
-    }
-    let start = entry.start(&mechanism, "table3", &StartOptions::new())?;
-    let (mut motion, run) = Motion::new(&name, &mechanism, start, UNTIL, None)?;
+    let (mut motion, run) = Motion::new(&name, FishRobot::ID, &gait.start(), UNTIL, None)?;
 
     let (mut speed, mut acceleration, mut swing) = (Vec::new(), Vec::new(), Vec::new());
     for t in times(0.0, UNTIL, POINTS) {
@@ -213,7 +200,6 @@ pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     Ok(Fish {
         row,
         run,
-        csv: motion.csv()?,
         speed,
         acceleration,
         swing,

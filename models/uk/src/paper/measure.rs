@@ -1,5 +1,6 @@
 //! Numbers taken from curves: minima, and the oscillation in a drifting signal.
 
+use nalgebra::{SMatrix, SVector};
 use uktool::numbers::extremes;
 
 /// (√5 − 1)/2.
@@ -65,51 +66,20 @@ pub(super) fn oscillation(samples: &[(f64, f64)], low: f64, high: f64) -> Option
 fn fit(samples: &[(f64, f64)], omega: f64) -> Option<(f64, f64)> {
     let (first, last) = (samples.first()?.0, samples.last()?.0);
     let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-    let mut normal = [[0.0; TERMS + 1]; TERMS];
+    let mut normal = SMatrix::<f64, TERMS, TERMS>::zeros();
+    let mut projection = SVector::<f64, TERMS>::zeros();
     let mut squares = 0.0;
     for &(t, value) in samples {
         let tau = (t - middle) / half;
         let (sin, cos) = (omega * t).sin_cos();
-        let basis = [1.0, tau, tau * tau, tau * tau * tau, cos, sin];
-        for i in 0..TERMS {
-            for j in 0..TERMS {
-                normal[i][j] += basis[i] * basis[j];
-            }
-            normal[i][TERMS] += basis[i] * value;
-        }
+        let basis = SVector::from([1.0, tau, tau * tau, tau * tau * tau, cos, sin]);
+        normal += basis * basis.transpose();
+        projection += value * basis;
         squares += value * value;
     }
-    let projection: [f64; TERMS] = std::array::from_fn(|i| normal[i][TERMS]);
-    let solution = solve(normal)?;
-    let explained: f64 = solution.iter().zip(projection).map(|(x, p)| x * p).sum();
-    Some((
-        squares - explained,
-        solution[TERMS - 2].hypot(solution[TERMS - 1]),
-    ))
-}
-
-/// Gaussian elimination with row pivoting on [matrix | right-hand side]; none if singular.
-fn solve(mut rows: [[f64; TERMS + 1]; TERMS]) -> Option<[f64; TERMS]> {
-    for k in 0..TERMS {
-        let pivot = (k..TERMS).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
-        rows.swap(k, pivot);
-        let head = rows[k];
-        if head[k] == 0.0 || !head[k].is_finite() {
-            return None;
-        }
-        for row in rows.iter_mut().skip(k + 1) {
-            let factor = row[k] / head[k];
-            for (entry, above) in row.iter_mut().zip(head).skip(k) {
-                *entry -= factor * above;
-            }
-        }
-    }
-    let mut solution = [0.0; TERMS];
-    for k in (0..TERMS).rev() {
-        let known: f64 = (k + 1..TERMS).map(|j| rows[k][j] * solution[j]).sum();
-        solution[k] = (rows[k][TERMS] - known) / rows[k][k];
-    }
-    Some(solution)
+    let solution = normal.lu().solve(&projection)?;
+    let (cos, sin) = (solution[TERMS - 2], solution[TERMS - 1]);
+    Some((squares - solution.dot(&projection), cos.hypot(sin)))
 }
 
 /// Largest minus smallest value.

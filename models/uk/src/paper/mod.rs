@@ -9,15 +9,13 @@ mod motion;
 mod page;
 mod published;
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use clap::Args;
 use models::uchain::{TABLE_1, TableRow};
 use rayon::prelude::*;
 use serde::Serialize;
-use uktool::command;
 use uktool::failure::Failure;
 use uktool::output::{self, Directory};
 use uktool::progress::Progress;
@@ -31,25 +29,12 @@ use motion::RunRow;
 /// a hundredfold until its tip turns.
 const TOLERANCE: f64 = 1e-10;
 
-/// The arguments of `paper`.
-#[derive(Debug, Args)]
-pub(crate) struct PaperArgs {
-    /// Directory to write index.html, paper.json, figures and CSV files to
-    #[arg(long, value_name = "DIR", default_value = OUT, value_parser = command::path)]
-    pub(crate) out: PathBuf,
-}
-
-const OUT: &str = "out/paper";
-
-impl Default for PaperArgs {
-    fn default() -> Self {
-        PaperArgs { out: OUT.into() }
-    }
-}
+/// Where the report goes if nothing is said.
+pub(crate) const OUT: &str = "out/paper";
 
 /// Every number on the page.
 #[derive(Debug, Serialize)]
-struct Paper {
+struct Paper<'a> {
     about: &'static str,
     signs: &'static str,
     method: &'static str,
@@ -59,7 +44,7 @@ struct Paper {
     uchain_catenary: ChainRow,
     fish: Vec<FishRow>,
     claims: Vec<Claim>,
-    runs: Vec<RunRow>,
+    runs: Vec<&'a RunRow>,
     /// Wall time of computing and drawing, s.
     seconds: f64,
 }
@@ -69,30 +54,24 @@ const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, r
 const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and \
     mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
 
-/// All runs.
-struct Results {
-    /// Table 1's, in order of x0.
-    chains: Vec<Chain>,
-    catenary: Chain,
-    fishes: Vec<Fish>,
-}
-
-/// Computes both cases and writes the report to `args.out`.
+/// Computes both cases and writes the report to the directory `out`.
 ///
 /// # Errors
 /// [`Failure::Failed`] if an integration fails or a file cannot be written; a report that stood there before is then still whole or partly
 /// replaced by files that are each whole, and index.html is written last.
-pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
+pub(crate) fn paper(out: &Path) -> Result<(), Failure> {
     let started = Instant::now();
-    let directory = Directory::create(&args.out)?;
-    let results = compute()?;
-    let uchain: Vec<ChainRow> = results.chains.iter().map(|c| c.row.clone()).collect();
-    let fish: Vec<FishRow> = results.fishes.iter().map(|f| f.row.clone()).collect();
-    for (name, svg) in figures::all(&results.chains, &results.fishes)? {
+    let directory = Directory::create(out)?;
+    let (catenary, chains, fishes) = compute()?;
+    let uchain: Vec<ChainRow> = chains.iter().map(|c| c.row.clone()).collect();
+    let fish: Vec<FishRow> = fishes.iter().map(|f| f.row.clone()).collect();
+    for (name, svg) in figures::all(&chains, &fishes)? {
         directory.write(&format!("figures/{name}.svg"), svg)?;
     }
-    for (run, csv) in results.samples() {
-        directory.write(&format!("csv/{}.csv", run.name), csv)?;
+    let runs = chains.iter().chain([&catenary]).map(|c| &c.run);
+    let runs: Vec<&RunRow> = runs.chain(fishes.iter().map(|f| &f.run)).collect();
+    for run in &runs {
+        directory.write(&format!("csv/{}.csv", run.name), &run.csv)?;
     }
     let paper = Paper {
         about: ABOUT,
@@ -101,9 +80,9 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
         tolerance: TOLERANCE,
         claims: claims::judge(&uchain, &fish),
         uchain,
-        uchain_catenary: results.catenary.row.clone(),
+        uchain_catenary: catenary.row.clone(),
         fish,
-        runs: results.samples().map(|(run, _)| run.clone()).collect(),
+        runs,
         seconds: started.elapsed().as_secs_f64(),
     };
     directory.write(chain::FILM, chain::film()?)?;
@@ -113,16 +92,8 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     report(&directory, &paper)
 }
 
-impl Results {
-    /// Each run with its samples as CSV.
-    fn samples(&self) -> impl Iterator<Item = (&RunRow, &[u8])> {
-        let chains = self.chains.iter().chain([&self.catenary]);
-        let fishes = self.fishes.iter().map(|f| (&f.run, f.csv.as_slice()));
-        chains.map(|c| (&c.run, c.csv.as_slice())).chain(fishes)
-    }
-}
-
-fn compute() -> Result<Results, Failure> {
+/// The chain from another start, those of Table 1 in order of x0, and the fish with all gaits.
+fn compute() -> Result<(Chain, Vec<Chain>, Vec<Fish>), Failure> {
     let mut starts = vec![(chain::OTHER_START, &TABLE_1[0])];
     starts.extend(TABLE_1.iter().map(|row| (chain::PAPER_START, row)));
     let gaits = fish::gaits();
@@ -134,33 +105,23 @@ fn compute() -> Result<Results, Failure> {
     };
     let chain = |(start, row): &(&str, &TableRow)| chain::compute(start, row).inspect(|_| note());
     let fish = |gait: &Gait| fish::compute(*gait).inspect(|_| note());
-    let (chains, fishes) = rayon::join(
-        || {
-            starts
-                .par_iter()
-                .with_max_len(1)
-                .map(chain)
-                .collect::<Result<_, _>>()
-        },
-        || {
-            gaits
-                .par_iter()
-                .with_max_len(1)
-                .map(fish)
-                .collect::<Result<_, _>>()
-        },
-    );
+    let (chains, fishes) = rayon::join(|| each(&starts, chain), || each(&gaits, fish));
     progress.finish();
-    let (mut chains, fishes): (Vec<Chain>, Vec<Fish>) = (chains?, fishes?);
-    Ok(Results {
-        catenary: chains.remove(0),
-        chains,
-        fishes,
-    })
+    let (mut chains, fishes) = (chains?, fishes?);
+    Ok((chains.remove(0), chains, fishes))
+}
+
+/// What `compute` makes of each item, one after the other by whoever is free.
+fn each<T: Sync, R: Send>(
+    items: &[T],
+    compute: impl Fn(&T) -> Result<R, Failure> + Sync + Send,
+) -> Result<Vec<R>, Failure> {
+    let items = items.par_iter().with_max_len(1);
+    items.map(compute).collect()
 }
 
 /// What a person at the terminal wants to know at once.
-fn report(directory: &Directory, paper: &Paper) -> Result<(), Failure> {
+fn report(directory: &Directory, paper: &Paper<'_>) -> Result<(), Failure> {
     let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
     output::to_stdout(|w| {
         writeln!(

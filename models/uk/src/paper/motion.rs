@@ -3,12 +3,10 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use ukcore::{
-    Event, Method, Prepared, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory,
-};
+use ukcore::{Event, Method, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory};
 use uktool::drift::Drift;
 use uktool::failure::Failure;
-use uktool::scene::Start;
+use uktool::scene::{Ready, Start};
 use uktool::{animate, command};
 
 use super::TOLERANCE;
@@ -35,11 +33,11 @@ pub(super) fn film(id: &str, runs: [(String, Start); 2], until: f64) -> Result<S
 /// A computed motion, and its accelerations.
 pub(super) struct Motion {
     solver: Solver,
-    trajectory: Trajectory,
+    pub(super) trajectory: Trajectory,
 }
 
 /// Cost and quality of one integration.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct RunRow {
     /// Name, also of the CSV file.
     pub(super) name: String,
@@ -55,20 +53,27 @@ pub(super) struct RunRow {
     pub(super) drift: Drift,
     /// Wall time, s.
     pub(super) seconds: f64,
+    /// The samples as CSV.
+    #[serde(skip)]
+    pub(super) csv: Vec<u8>,
 }
 
 impl Motion {
-    /// Integrates `mechanism` from `start` to `until`, with an event.
+    /// Integrates the model `id` from `start` to `until`, with an event.
     pub(super) fn new(
         name: &str,
-        mechanism: &Prepared,
-        start: State,
+        id: &str,
+        start: &Start,
         until: f64,
         event: Option<Event>,
     ) -> Result<(Self, RunRow), Failure> {
+        let models = models::entries();
+        let Ready {
+            mechanism, state, ..
+        } = start.ready(command::find(&models, id)?)?;
         let started = Instant::now();
-        let mut simulation = Simulation::new(mechanism)
-            .start(start)
+        let mut simulation = Simulation::new(&mechanism)
+            .start(state)
             .tolerance(TOLERANCE)
             .every(SAMPLES)
             .dense();
@@ -79,7 +84,9 @@ impl Motion {
             .until(until)
             .map_err(|f| Failure::Failed(format!("{name}: {}", f.error)))?;
         let seconds = started.elapsed().as_secs_f64();
-        let work = trajectory.work();
+        let (work, mut csv) = (trajectory.work(), Vec::new());
+        let written = trajectory.write_csv(&mut csv);
+        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
         let run = RunRow {
             name: name.to_owned(),
             until,
@@ -90,13 +97,10 @@ impl Motion {
             fallbacks: work.fallbacks,
             drift: Drift::of(&trajectory),
             seconds,
+            csv,
         };
         let solver = Solver::new(mechanism, SolverOptions::default());
         Ok((Motion { solver, trajectory }, run))
-    }
-
-    pub(super) fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
     }
 
     /// The state at `t`.
@@ -111,14 +115,6 @@ impl Motion {
         let solver = &mut self.solver;
         solver.acceleration(t, &state.q, &state.v, &mut out)?;
         Ok(out)
-    }
-
-    /// The samples as CSV.
-    pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
-        let mut text = Vec::new();
-        let written = self.trajectory.write_csv(&mut text);
-        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
-        Ok(text)
     }
 }
 

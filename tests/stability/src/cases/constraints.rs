@@ -1,44 +1,32 @@
 //! Constraints that are scaled, repeated, or nearly so.
 
+use std::f64::consts::FRAC_PI_2;
+
 use models::{DoublePendulum, Model, Pendulum};
-use ukcore::equations::precise;
-use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
 use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
-use super::{REGULAR, accelerations_off, off, worse};
+use super::{REGULAR, SINGULAR, accelerations_off, end, exact_accelerations, off, swung, worse};
 use crate::mechanisms::{Copies, NearPlanes, ScaledRows};
 use uktool::stability::{Case, Effort, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
-        Case {
-            id: "rows-scaled",
-            swept: "one row of a double pendulum times s, the other by s",
-            oracle: "the rows as they are: accelerations in 31 digits, and the run",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: decades(-150, 150, 15, 0),
-            measure: &rows_scaled,
-        },
-        Case {
-            id: "rows-copied",
-            swept: "rod of a pendulum declared again times s, and by s",
-            oracle: "closed form of the pendulum; the copies are named as redundant",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: decades(-150, 150, 15, 0),
-            measure: &rows_copied,
-        },
-        Case {
-            id: "rows-near",
-            swept: "angle between two planes that a particle is held on",
-            oracle: "closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance",
-            accurate: 1e-12,
-            bound: 1e-10,
-            sweep: decades(-1, -16, 1, -1),
-            measure: &rows_near,
-        },
+        Case::new("rows-scaled", rows_scaled)
+            .swept("one row of a double pendulum times s, the other by s")
+            .over(decades(-150, 150, 15, 0))
+            .against("the rows as they are: accelerations in 31 digits, and the run")
+            .within(1e-9, 1e-6),
+        Case::new("rows-copied", rows_copied)
+            .swept("rod of a pendulum declared again times s, and by s")
+            .over(decades(-150, 150, 15, 0))
+            .against("closed form of the pendulum; the copies are named as redundant")
+            .within(1e-9, 1e-6),
+        Case::new("rows-near", rows_near)
+            .swept("angle between two planes that a particle is held on")
+            .over(decades(-1, -16, 1, -1))
+            .against("closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance")
+            .within(1e-12, 1e-10),
     ]
 }
 
@@ -55,39 +43,30 @@ fn rows_scaled(s: f64, effort: &mut Effort) -> Result<f64, Error> {
         ("rate2", 2.0),
     ];
     let state = double.start("released", &options.into())?;
-    let expected = precise::accelerations(&plain, 0.0, &state.q, &state.v);
-    let expected = expected.unwrap_or_else(|| vec![f64::NAN; 4]);
+    let expected = exact_accelerations(&plain, &state);
     let now = accelerations_off(&scaled, &state, &REGULAR, &expected, effort)?;
-    let mut ends = Vec::new();
-    for mechanism in [plain, scaled] {
+    let mut end_of = |mechanism: ScaledRows| -> Result<Vec<f64>, Error> {
         let simulation = Simulation::new(mechanism).start(state.clone());
-        let run = effort.run(simulation.tolerance(1e-11), 1.0)?;
-        ends.push(run.last().map_or(Vec::new(), |s| s.q.to_vec()));
-    }
-    Ok(worse(now, off(&ends[1], &ends[0])))
+        Ok(end(&effort.run(simulation.tolerance(1e-11), 1.0)?))
+    };
+    let expected = end_of(plain)?;
+    Ok(worse(now, off(&end_of(scaled)?, &expected)))
 }
 
 fn rows_copied(s: f64, effort: &mut Effort) -> Result<f64, Error> {
     let mut copies = Copies::default();
     copies.set("s", s)?;
     copies.set("r", 1.0 / s)?;
-    let pendulum = Pendulum::default();
-    let start = pendulum.default_start()?;
+    let start = Pendulum::default().default_start()?;
     let mut solver = Solver::new(&copies, SolverOptions::default());
     let solution = solver.solve(0.0, &start.q, &start.v)?;
     if solution.rank != 1 || solution.redundant.len() != 2 {
         return Ok(f64::INFINITY);
     }
     let expected = [0.0, -9.81];
-    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
-    let now = accelerations_off(&copies, &start, &formulas, &expected, effort)?;
+    let now = accelerations_off(&copies, &start, &SINGULAR, &expected, effort)?;
     let run = effort.run(Simulation::new(copies).start(start).tolerance(1e-11), 1.0)?;
-    let (angle, _) = pendulum.swing(-std::f64::consts::FRAC_PI_2, 1.0);
-    let (q, _) = pendulum.at_angle(angle, 0.0);
-    Ok(worse(
-        now,
-        run.last().map_or(f64::NAN, |last| off(last.q, &q)),
-    ))
+    Ok(worse(now, off(&end(&run), &swung(-FRAC_PI_2, 1.0))))
 }
 
 fn rows_near(d: f64, effort: &mut Effort) -> Result<f64, Error> {

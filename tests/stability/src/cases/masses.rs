@@ -2,79 +2,54 @@
 
 use models::RigidBody;
 use ukcore::manifold::Projector;
-use ukcore::solver::Formula;
 use ukcore::{Error, Mechanism, Simulation, State};
 
-use super::{REGULAR, accelerations_imprecise, accelerations_off, largest, worse};
+use super::{REGULAR, SINGULAR, accelerations_off, exact_accelerations, largest, worse};
 use crate::mechanisms::{Chain, Wheel};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
     let ratio = || decades(-12, 12, 2, 0);
     vec![
-        Case {
-            id: "mass-ratio",
-            swept: "mass ratio of neighbours in a chain, accelerations",
-            oracle: "the same equations in 31 digits; all four formulas",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: ratio(),
-            measure: &mass_ratio,
-        },
-        Case {
-            id: "mass-ratio-run",
-            swept: "mass ratio of neighbours in a chain, 0.5 s of motion",
-            oracle: "energy, as a part of that exchanged, and lengths",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: ratio(),
-            measure: &mass_ratio_run,
-        },
-        Case {
-            id: "length-ratio",
-            swept: "length ratio of neighbours in a chain, accelerations",
-            oracle: "the same equations in 31 digits; all four formulas",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: decades(-8, 8, 1, 0),
-            measure: &length_ratio,
-        },
-        Case {
-            id: "length-ratio-run",
-            swept: "length ratio of neighbours in a chain, 0.5 s of motion",
-            oracle: "energy, as a part of that exchanged, and lengths",
-            accurate: 1e-8,
-            bound: 1e-5,
-            sweep: decades(-8, 8, 1, 0),
-            measure: &length_ratio_run,
-        },
-        Case {
-            id: "mass-to-zero",
-            swept: "inertia of a massless angle (UP limit), accelerations and one second",
-            oracle: "closed form for every inertia, 0 included",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: inertias(),
-            measure: &inertia_to_zero,
-        },
-        Case {
-            id: "bob-to-zero",
-            swept: "mass of the bob against the inertia of its angle",
-            oracle: "closed form for every mass, 0 included",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: inertias(),
-            measure: &bob_to_zero,
-        },
-        Case {
-            id: "quaternion",
-            swept: "turn of a rigid body from the identity quaternion, rad (singular M)",
-            oracle: "the same equations in 31 digits; both formulas for singular M",
-            accurate: 1e-12,
-            bound: 1e-8,
-            sweep: decades(0, -16, 1, 0).and(0.0),
-            measure: &near_identity,
-        },
+        Case::new("mass-ratio", |ratio, effort| at_once(ratio, 1.0, effort))
+            .swept("mass ratio of neighbours in a chain, accelerations")
+            .over(ratio())
+            .against("the same equations in 31 digits; all four formulas")
+            .within(1e-12, 1e-8),
+        Case::new("mass-ratio-run", |ratio, effort| {
+            conserved(ratio, 1.0, effort)
+        })
+        .swept("mass ratio of neighbours in a chain, 0.5 s of motion")
+        .over(ratio())
+        .against("energy, as a part of that exchanged, and lengths")
+        .within(1e-8, 1e-5),
+        Case::new("length-ratio", |ratio, effort| at_once(1.0, ratio, effort))
+            .swept("length ratio of neighbours in a chain, accelerations")
+            .over(decades(-8, 8, 1, 0))
+            .against("the same equations in 31 digits; all four formulas")
+            .within(1e-12, 1e-8),
+        Case::new("length-ratio-run", |ratio, effort| {
+            conserved(1.0, ratio, effort)
+        })
+        .swept("length ratio of neighbours in a chain, 0.5 s of motion")
+        .over(decades(-8, 8, 1, 0))
+        .against("energy, as a part of that exchanged, and lengths")
+        .within(1e-8, 1e-5),
+        Case::new("mass-to-zero", |i, effort| wheel(1.0, i, effort))
+            .swept("inertia of a massless angle (UP limit), accelerations and one second")
+            .over(inertias())
+            .against("closed form for every inertia, 0 included")
+            .within(1e-9, 1e-6),
+        Case::new("bob-to-zero", |m, effort| wheel(m, 1.0, effort))
+            .swept("mass of the bob against the inertia of its angle")
+            .over(inertias())
+            .against("closed form for every mass, 0 included")
+            .within(1e-9, 1e-6),
+        Case::new("quaternion", near_identity)
+            .swept("turn of a rigid body from the identity quaternion, rad (singular M)")
+            .over(decades(0, -16, 1, 0).and(0.0))
+            .against("the same equations in 31 digits; both formulas for singular M")
+            .within(1e-12, 1e-8),
     ]
 }
 
@@ -96,8 +71,9 @@ fn near_identity(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
         q: e.to_vec(),
         v,
     };
-    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
-    accelerations_imprecise(&RigidBody::default(), &state, &formulas, effort)
+    let body = RigidBody::default();
+    let expected = exact_accelerations(&body, &state);
+    accelerations_off(&body, &state, &SINGULAR, &expected, effort)
 }
 
 fn inertias() -> Sweep {
@@ -136,28 +112,16 @@ fn chain(mass: f64, length: f64) -> Result<(Chain, State), Error> {
     Ok((chain, state))
 }
 
-fn mass_ratio(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
-    let (chain, state) = chain(ratio, 1.0)?;
-    accelerations_imprecise(&chain, &state, &REGULAR, effort)
+/// Accelerations of that chain.
+fn at_once(mass: f64, length: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, state) = chain(mass, length)?;
+    let expected = exact_accelerations(&chain, &state);
+    accelerations_off(&chain, &state, &REGULAR, &expected, effort)
 }
 
-fn length_ratio(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
-    let (chain, state) = chain(1.0, ratio)?;
-    accelerations_imprecise(&chain, &state, &REGULAR, effort)
-}
-
-fn mass_ratio_run(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
-    let (chain, state) = chain(ratio, 1.0)?;
-    conserved(chain, state, effort)
-}
-
-fn length_ratio_run(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
-    let (chain, state) = chain(1.0, ratio)?;
-    conserved(chain, state, effort)
-}
-
-/// Drift of energy, and of the rods' lengths as parts of the longest one.
-fn conserved(chain: Chain, start: State, effort: &mut Effort) -> Result<f64, Error> {
+/// Drift of its energy, and of the rods' lengths as parts of the longest one.
+fn conserved(mass: f64, length: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, start) = chain(mass, length)?;
     let simulation = Simulation::new(chain).start(start).tolerance(1e-11);
     let simulation = simulation.max_steps(2_000_000).every(0.01);
     let trajectory = effort.run(simulation, 0.5)?;
@@ -187,8 +151,7 @@ fn wheel(m: f64, i: f64, effort: &mut Effort) -> Result<f64, Error> {
         sin * turn + cos * rate * rate,
         turn,
     ];
-    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
-    let now = accelerations_off(&wheel, &state, &formulas, &expected, effort)?;
+    let now = accelerations_off(&wheel, &state, &SINGULAR, &expected, effort)?;
     // Released at rest, one second.
     let rest = State {
         v: vec![0.0; 3],
@@ -202,12 +165,4 @@ fn wheel(m: f64, i: f64, effort: &mut Effort) -> Result<f64, Error> {
         ..models::Pendulum::default()
     };
     Ok(worse(now, found - pendulum.swing(angle, 1.0).0))
-}
-
-fn inertia_to_zero(i: f64, effort: &mut Effort) -> Result<f64, Error> {
-    wheel(1.0, i, effort)
-}
-
-fn bob_to_zero(m: f64, effort: &mut Effort) -> Result<f64, Error> {
-    wheel(m, 1.0, effort)
 }

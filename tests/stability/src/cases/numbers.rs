@@ -5,70 +5,47 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use models::{DoublePendulumAngles, Model, Pendulum, UChain};
 use ukcore::{Error, Simulation, State};
 
-use super::{off, worse};
+use super::{end, off, swung, worse};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
-    let scale = |id, swept, sweep, measure| Case {
-        id,
-        swept,
-        oracle: "the motion in SI units, scaled",
-        accurate: 1e-7,
-        bound: 1e-4,
-        sweep,
-        measure,
-    };
+    let si = "the motion in SI units, scaled";
     vec![
-        scale(
-            "unit-length",
-            "unit of length of a U-chain's fall",
-            decades(-30, 30, 3, 0),
-            &|s, e| in_units(s, 1.0, 1.0, e),
-        ),
-        scale(
-            "unit-mass",
-            "unit of mass of a U-chain's fall",
-            decades(-300, 300, 50, 0),
-            &|s, e| in_units(1.0, s, 1.0, e),
-        ),
-        scale(
-            "unit-time",
-            "unit of time of a U-chain's fall",
-            decades(-30, 30, 3, 0),
-            &|s, e| in_units(1.0, 1.0, s, e),
-        ),
-        Case {
-            id: "turns",
-            swept: "whole turns by which a double pendulum starts advanced, 2 s",
-            oracle: "the same start without them",
-            accurate: 1e-8,
-            bound: 1e-4,
-            sweep: decades(0, 16, 1, 0),
-            measure: &turns,
-        },
-        Case {
-            id: "first-step",
-            swept: "first step of a pendulum's run, s",
-            oracle: "closed form",
-            accurate: 1e-8,
-            bound: 1e-6,
-            sweep: Sweep::of(&[
+        Case::new("unit-length", |s, effort| in_units(s, 1.0, 1.0, effort))
+            .swept("unit of length of a U-chain's fall")
+            .over(decades(-30, 30, 3, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("unit-mass", |s, effort| in_units(1.0, s, 1.0, effort))
+            .swept("unit of mass of a U-chain's fall")
+            .over(decades(-300, 300, 50, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("unit-time", |s, effort| in_units(1.0, 1.0, s, effort))
+            .swept("unit of time of a U-chain's fall")
+            .over(decades(-30, 30, 3, 0))
+            .against(si)
+            .within(1e-7, 1e-4),
+        Case::new("turns", turns)
+            .swept("whole turns by which a double pendulum starts advanced, 2 s")
+            .over(decades(0, 16, 1, 0))
+            .against("the same start without them")
+            .within(1e-8, 1e-4),
+        Case::new("first-step", first_step)
+            .swept("first step of a pendulum's run, s")
+            .over(Sweep::of(&[
                 1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28, 1e-32, 1e-40, 1e-80, 1e-160,
                 1e-320,
-            ]),
-            measure: &first_step,
-        },
-        Case {
-            id: "short-run",
-            swept: "length of a pendulum's run, s",
-            oracle: "its Taylor series to the third order",
-            accurate: 1e-15,
-            bound: 1e-12,
-            sweep: Sweep::of(&[
+            ]))
+            .against("closed form")
+            .within(1e-8, 1e-6),
+        Case::new("short-run", short_run)
+            .swept("length of a pendulum's run, s")
+            .over(Sweep::of(&[
                 1e-4, 1e-8, 1e-16, 1e-32, 1e-64, 1e-128, 1e-256, 1e-300, 1e-310, 1e-320,
-            ]),
-            measure: &short_run,
-        },
+            ]))
+            .against("its Taylor series to the third order")
+            .within(1e-15, 1e-12),
     ]
 }
 
@@ -81,18 +58,15 @@ fn in_units(length: f64, mass: f64, time: f64, effort: &mut Effort) -> Result<f6
         l: chain.l * length,
         g: chain.g * length / time / time,
     };
-    let mut ends = Vec::new();
-    for (chain, length, time) in [(chain, 1.0, 1.0), (other, length, time)] {
-        let start = State {
-            q: start.q.iter().map(|q| q * length).collect(),
-            ..start.clone()
-        };
+    let mut end_of = |chain: UChain, length: f64, time: f64| -> Result<Vec<f64>, Error> {
+        let mut start = start.clone();
+        start.q.iter_mut().for_each(|q| *q *= length);
         let simulation = Simulation::new(chain).start(start).tolerance(1e-10);
         let run = effort.run(simulation.max_steps(100_000), 1.5 * time)?;
-        let last = run.last().map_or(Vec::new(), |s| s.q.to_vec());
-        ends.push(last.iter().map(|q| q / length).collect::<Vec<_>>());
-    }
-    Ok(off(&ends[1], &ends[0]))
+        Ok(end(&run).into_iter().map(|q| q / length).collect())
+    };
+    let expected = end_of(chain, 1.0, 1.0)?;
+    Ok(off(&end_of(other, length, time)?, &expected))
 }
 
 fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
@@ -106,7 +80,7 @@ fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
             .start(start)
             .tolerance(1e-11);
         let run = effort.run(simulation.max_steps(100_000), 2.0)?;
-        ends.push(run.last().map_or(Vec::new(), |s| s.q.to_vec()));
+        ends.push(end(&run));
     }
     let difference = ends[1].iter().zip(&ends[0]);
     let difference = difference.map(|(turned, plain)| turned - TAU * turns - plain);
@@ -116,11 +90,9 @@ fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
 fn first_step(step: f64, effort: &mut Effort) -> Result<f64, Error> {
     let pendulum = Pendulum::default();
     let start = pendulum.default_start()?;
-    let simulation = Simulation::new(pendulum.clone()).start(start);
+    let simulation = Simulation::new(pendulum).start(start);
     let run = effort.run(simulation.first_step(step).tolerance(1e-10), 1.0)?;
-    let (angle, _) = pendulum.swing(-FRAC_PI_2, 1.0);
-    let (q, _) = pendulum.at_angle(angle, 0.0);
-    Ok(run.last().map_or(f64::NAN, |last| off(last.q, &q)))
+    Ok(off(&end(&run), &swung(-FRAC_PI_2, 1.0)))
 }
 
 fn short_run(length: f64, effort: &mut Effort) -> Result<f64, Error> {

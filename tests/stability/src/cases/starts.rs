@@ -8,57 +8,40 @@ use crate::mechanisms::{Carriage, Elastic};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
-    let jumps = || decades(-16, 0, 1, -16);
-    let jump = |id, swept, measure| Case {
-        id,
-        swept,
-        oracle: "closed form of the mass on its spring",
-        accurate: 1e-7,
-        bound: 1e-5,
-        sweep: jumps(),
-        measure,
+    let jump = |id, what: &'static str, swept: &'static str| {
+        Case::new(id, move |by, effort| jumping(what, by, effort))
+            .swept(swept)
+            .over(decades(-16, 0, 1, -16))
+            .against("closed form of the mass on its spring")
+            .within(1e-7, 1e-5)
     };
     vec![
-        Case {
-            id: "start-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a start",
-            oracle: "consistent to rounding, and moved by at most 20 times the distance",
-            accurate: 1e-13,
-            bound: 1e-12,
-            sweep: decades(-16, 0, 1, -16),
-            measure: &start_off,
-        },
-        Case {
-            id: "assembly-off",
-            swept: "distance of a U-chain's start from its constraints, m, as a guess to assemble",
-            oracle: "consistent to rounding, and moved by at most 20 times the distance",
-            accurate: 1e-13,
-            bound: 1e-12,
-            sweep: decades(-16, 1, 1, -16),
-            measure: &assembly_off,
-        },
-        jump("jump-place", "jump of a prescribed position, m", &|h, e| {
-            jumping(h, 0.0, 0.0, e)
-        }),
+        Case::new("start-off", start_off)
+            .swept("distance of a U-chain's start from its constraints, m, as a start")
+            .over(decades(-16, 0, 1, -16))
+            .against("consistent to rounding, and moved by at most 20 times the distance")
+            .within(1e-13, 1e-12),
+        Case::new("assembly-off", assembly_off)
+            .swept("distance of a U-chain's start from its constraints, m, as a guess to assemble")
+            .over(decades(-16, 1, 1, -16))
+            .against("consistent to rounding, and moved by at most 20 times the distance")
+            .within(1e-13, 1e-12),
+        jump("jump-place", "place", "jump of a prescribed position, m"),
         jump(
             "jump-velocity",
+            "velocity",
             "jump of a prescribed velocity, m/s",
-            &|u, e| jumping(0.0, u, 0.0, e),
         ),
         jump(
             "jump-acceleration",
+            "acceleration",
             "jump of a prescribed acceleration, m/s²",
-            &|a, e| jumping(0.0, 0.0, a, e),
         ),
-        Case {
-            id: "not-finite",
-            swept: "NaN and ∞ in parameters, state, time and forces",
-            oracle: "refused, and the culprit named",
-            accurate: 0.0,
-            bound: 0.0,
-            sweep: Sweep::named(&PLACES),
-            measure: &not_finite,
-        },
+        Case::new("not-finite", not_finite)
+            .swept("NaN and ∞ in parameters, state, time and forces")
+            .over(Sweep::named(&PLACES))
+            .against("refused, and the culprit named")
+            .within(0.0, 0.0),
     ]
 }
 
@@ -100,16 +83,15 @@ fn assembly_off(distance: f64, _: &mut Effort) -> Result<f64, Error> {
 }
 
 /// The mass on the spring follows a carriage that changes its motion at t = 1/2.
-fn jumping(
-    place: f64,
-    velocity: f64,
-    acceleration: f64,
-    effort: &mut Effort,
-) -> Result<f64, Error> {
+fn jumping(what: &str, jump: f64, effort: &mut Effort) -> Result<f64, Error> {
     let mut carriage = Carriage::default();
-    carriage.set("place", place)?;
-    carriage.set("velocity", velocity)?;
-    carriage.set("acceleration", acceleration)?;
+    carriage.set(what, jump)?;
+    let Carriage {
+        place,
+        velocity,
+        acceleration,
+        ..
+    } = carriage;
     let until = 1.5;
     let simulation = Simulation::new(carriage).start(State::zeros::<Carriage>());
     let run = effort.run(simulation.tolerance(1e-9).at(vec![until]), until)?;
@@ -143,11 +125,6 @@ const PLACES: [&str; 14] = [
 
 /// Whether what is not finite is refused with a message that names it: 0, or infinity where it is not.
 fn not_finite(index: f64, effort: &mut Effort) -> Result<f64, Error> {
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "an index"
-    )]
     let place = PLACES[index as usize];
     if place.ends_with("force") {
         // At the centre of the spring its direction is 0/0.

@@ -8,34 +8,25 @@ use crate::mechanisms::{Elastic, Incline};
 use uktool::stability::{Case, Effort, decades};
 
 pub(crate) fn cases() -> Vec<Case<'static>> {
+    let rigid = "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy";
     vec![
-        Case {
-            id: "spring",
-            swept: "stiffness of a spring in place of a pendulum's rod, N/m, explicit method",
-            oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
-            accurate: 1e-7,
-            bound: 1e-4,
-            sweep: decades(2, 12, 1, 2),
-            measure: &|k, effort| spring(k, Method::Dop853, effort),
-        },
-        Case {
-            id: "spring-implicit",
-            swept: "the same by the implicit method, Radau IIA of order 5",
-            oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
-            accurate: 1e-7,
-            bound: 1e-4,
-            sweep: decades(2, 12, 1, 2),
-            measure: &|k, effort| spring(k, Method::Radau5, effort),
-        },
-        Case {
-            id: "drag",
-            swept: "drag coefficient of a slide on a track, 1/s",
-            oracle: "closed form of linear drag",
-            accurate: 1e-9,
-            bound: 1e-6,
-            sweep: decades(0, 8, 1, 0),
-            measure: &drag,
-        },
+        Case::new("spring", |k, effort| spring(k, Method::Dop853, effort))
+            .swept("stiffness of a spring in place of a pendulum's rod, N/m, explicit method")
+            .over(decades(2, 12, 1, 2))
+            .against(rigid)
+            .within(1e-7, 1e-4),
+        Case::new("spring-implicit", |k, effort| {
+            spring(k, Method::Radau5, effort)
+        })
+        .swept("the same by the implicit method, Radau IIA of order 5")
+        .over(decades(2, 12, 1, 2))
+        .against(rigid)
+        .within(1e-7, 1e-4),
+        Case::new("drag", drag)
+            .swept("drag coefficient of a slide on a track, 1/s")
+            .over(decades(0, 8, 1, 0))
+            .against("closed form of linear drag")
+            .within(1e-9, 1e-6),
     ]
 }
 

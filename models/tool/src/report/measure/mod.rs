@@ -248,8 +248,8 @@ impl Subject<'_> {
         let end = run.last().ok_or(Trouble::NoNumber)?.to_state();
         // From far off the constraints the way back may not be found.
         let nearest = self.nearest(&end).ok().map(|nearest| stacked(&nearest));
-        let (last, end) = (truth.last(), stacked(&end));
-        let error = truth.errors(last, &end);
+        let end = stacked(&end);
+        let error = truth.at_end(&end);
         let drift = Drift::of(&run);
         let work = run.work();
         let figures = Figures {
@@ -267,7 +267,7 @@ impl Subject<'_> {
             error_in_units: error.absolute,
             error_along: truth.largest(&states(&sampled)).max(error.scaled),
             off: nearest.as_ref().map(|n| truth.distance(&end, n).scaled),
-            within: nearest.as_ref().map(|n| truth.errors(last, n).scaled),
+            within: nearest.as_ref().map(|n| truth.at_end(n).scaled),
             drift,
         };
         let residuals = [drift.position_residual, drift.velocity_residual];

@@ -41,7 +41,10 @@ pub(super) fn choices(report: &Report) -> Markup {
 
 fn recommended(study: &Study, goal: f64) -> Cell {
     let Some(kept) = verdict::choice(study, goal, Among::Kept) else {
-        return Cell::number(unreached(study, goal));
+        return Cell::number(match study.reference.floor > goal {
+            true => "reference not so good",
+            false => "not reached",
+        });
     };
     let all = verdict::choice(study, goal, Among::All);
     let faster =
@@ -51,15 +54,6 @@ fn recommended(study: &Study, goal: f64) -> Cell {
         small { (kept.variant.label) br; (kept.variant.knob_name()) " " (power_of_ten(kept.cost.knob)) }
         @if let Some(all) = faster { br; small.soft { (duration(all.cost.seconds)) " " (all.variant.label) } }
     })
-}
-
-/// Why nothing is recommended.
-fn unreached(study: &Study, goal: f64) -> &'static str {
-    if study.reference.floor > goal {
-        "reference not so good"
-    } else {
-        "not reached"
-    }
 }
 
 /// How often each combination is the one to take.

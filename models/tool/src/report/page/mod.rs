@@ -7,7 +7,7 @@ mod motion;
 
 use maud::{Markup, html};
 
-use crate::html::{Cell, Page, Section, fixed, message, power_of_ten, signed};
+use crate::html::{Cell, Page, fixed, message, power_of_ten, signed};
 use crate::numbers;
 
 use super::charts;
@@ -17,49 +17,44 @@ use super::variants::Variant;
 use super::verdict::{self, Among, DEFAULT_TOLERANCE, TIE};
 
 pub(super) fn html(report: &Report) -> String {
-    let section = Section::new;
     let motions = html! { @for study in &report.studies { (motion::motion(study)) } };
     let page = Page {
         title: "Error against run time",
         head: head(report),
         files: &[("report.json", "JSON"), ("report.csv", "CSV")],
         sections: vec![
-            section(
-                "choices",
-                "What to take",
-                "What to take for which accuracy",
+            (
+                ["choices", "What to take", "What to take for which accuracy"],
                 choices::choices(report),
             ),
-            section(
-                "tally",
-                "How often",
-                "How often each combination is the one to take",
+            (
+                [
+                    "tally",
+                    "How often",
+                    "How often each combination is the one to take",
+                ],
                 choices::tallied(report),
             ),
-            section(
-                "defaults",
-                "The defaults",
-                "Do the figures support the defaults?",
+            (
+                [
+                    "defaults",
+                    "The defaults",
+                    "Do the figures support the defaults?",
+                ],
                 choices::defaults(report),
             ),
-            section(
-                "prices",
-                "Stabilisation",
-                "What stabilisation costs",
+            (
+                ["prices", "Stabilisation", "What stabilisation costs"],
                 costs::prices(report),
             ),
-            section(
-                "causes",
-                "Causes of error",
-                "Where the errors come from",
+            (
+                ["causes", "Causes of error", "Where the errors come from"],
                 costs::causes(report),
             ),
-            section("long", "Long runs", "Long runs", long::long_runs(report)),
-            section("motions", "Motions", "Motion by motion", motions),
-            section(
-                "method",
-                "How it is measured",
-                "How it is measured",
+            (["long", "Long runs", "Long runs"], long::long_runs(report)),
+            (["motions", "Motions", "Motion by motion"], motions),
+            (
+                ["method", "How it is measured", "How it is measured"],
                 method(report),
             ),
         ],

@@ -5,34 +5,17 @@ use uktool::html::fixed;
 use super::super::chain::ChainRow;
 use super::super::published::{ABOVE_G, PEAKS, PULL, TABLE_1_DIGIT};
 use super::{
-    Claim, Verdict, between, column, growing, larger, list, percent, reversed, throughout, up_to,
+    Told, Verdict, between, column, growing, larger, list, percent, reversed, throughout, up_to,
 };
 
-pub(super) fn claims(rows: &[ChainRow]) -> Vec<Claim> {
+pub(super) fn claims(rows: &[ChainRow]) -> Vec<Told> {
     let mut claims = table_1(rows);
     claims.extend(falling(rows));
     claims.extend(peaks(rows));
     claims
 }
 
-fn chain_claim(
-    section: &'static str,
-    claim: &'static str,
-    found: String,
-    numbers: Vec<f64>,
-    verdict: Verdict,
-) -> Claim {
-    Claim {
-        case: "uchain",
-        section,
-        claim,
-        found,
-        numbers,
-        verdict,
-    }
-}
-
-fn table_1(rows: &[ChainRow]) -> Vec<Claim> {
+fn table_1(rows: &[ChainRow]) -> Vec<Told> {
     let largest = |difference: &dyn Fn(&ChainRow) -> f64| {
         column(rows, difference)
             .into_iter()
@@ -46,7 +29,7 @@ fn table_1(rows: &[ChainRow]) -> Vec<Claim> {
     } else {
         Verdict::Fails
     };
-    vec![chain_claim(
+    vec![(
         "5, Table 1",
         "Greatest fall of the tip and its time, for five separations",
         format!(
@@ -59,7 +42,7 @@ fn table_1(rows: &[ChainRow]) -> Vec<Claim> {
     )]
 }
 
-fn falling(rows: &[ChainRow]) -> Vec<Claim> {
+fn falling(rows: &[ChainRow]) -> Vec<Told> {
     let least = column(rows, |r| r.least_lead);
     let lead = column(rows, |r| r.lead);
     let (t_max, h_max) = (column(rows, |r| r.t_max), column(rows, |r| r.h_max));
@@ -73,7 +56,7 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
         .filter(|a| (ABOVE_G.0..=ABOVE_G.1).contains(*a))
         .count();
     vec![
-        chain_claim(
+        (
             "5, 11",
             "The tip is ahead of a free fall until its turn",
             format!(
@@ -84,14 +67,14 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
             least.clone(),
             larger(least.iter().map(|lead| (1.0 + lead, 1.0))),
         ),
-        chain_claim(
+        (
             "5, 11",
             "Greatest fall and its time shrink with x0",
             format!("h_max {} m; t_max {} s", list(&h_max, 3), list(&t_max, 3)),
             [h_max.clone(), t_max.clone()].concat(),
             growing(&h_max).and(growing(&t_max)),
         ),
-        chain_claim(
+        (
             "5, 11",
             "ÿ1 is above g from the start until the chain pulls the tip back",
             format!(
@@ -102,21 +85,21 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
             part.clone(),
             throughout(&part),
         ),
-        chain_claim(
+        (
             "5",
             "It is above g for longer as x0 shrinks",
             format!("until {} s", list(&until, 3)),
             until.clone(),
             growing(&reversed(&until)),
         ),
-        chain_claim(
+        (
             "5",
             "ÿ1 exceeds g by more as x0 shrinks",
             format!("mean excess {} m/s²", list(&mean, 3)),
             mean.clone(),
             growing(&reversed(&mean)),
         ),
-        chain_claim(
+        (
             "5",
             "Above g, ÿ1 has values from about 10 to 25 m/s²",
             format!(
@@ -130,27 +113,27 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
     ]
 }
 
-fn peaks(rows: &[ChainRow]) -> Vec<Claim> {
+fn peaks(rows: &[ChainRow]) -> Vec<Told> {
     let peak = column(rows, |r| r.peak);
     let depth = column(rows, |r| -r.peak);
     let time = column(rows, |r| r.t_peak);
     let pull = column(rows, |r| r.pull);
     vec![
-        chain_claim(
+        (
             "5, Figs. 2-6",
             "The negative peaks of ÿ1 lie between −200 and −350 m/s²",
             format!("{} m/s²", list(&peak, 1)),
             peak.clone(),
             between(&peak, PEAKS),
         ),
-        chain_claim(
+        (
             "5",
             "The peaks, and their times, shrink with x0",
             format!("{} m/s² at {} s", list(&peak, 1), list(&time, 3)),
             [depth.clone(), time.clone()].concat(),
             growing(&depth).and(growing(&time)),
         ),
-        chain_claim(
+        (
             "11",
             "The pull on the tip goes up to 40 weights of a link",
             format!("{} weights", list(&pull, 1)),

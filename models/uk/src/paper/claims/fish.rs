@@ -4,7 +4,7 @@ use uktool::html::{fixed, joined, signed};
 
 use super::super::fish::{FishRow, WINDOW, sweep};
 use super::super::measure::spread;
-use super::{Claim, Verdict, at_most, column, growing, larger, list, percent, reversed};
+use super::{Told, Verdict, at_most, column, growing, larger, list, percent, reversed};
 
 /// An oscillation fitted to three periods has its frequency to about a hundredth; twice that is called equal.
 const SAME_FREQUENCY: f64 = 0.02;
@@ -18,7 +18,7 @@ const NO_ACCELERATION: f64 = 0.05;
 /// A quantity is called little influenced if it varies by less than this part over a sweep.
 const LITTLE: f64 = 0.25;
 
-pub(super) fn claims(rows: &[FishRow]) -> Vec<Claim> {
+pub(super) fn claims(rows: &[FishRow]) -> Vec<Told> {
     let sweeps = [0, 1, 2].map(|k| sweep(rows, k, |r| r).into_iter().cloned().collect());
     let mut claims = speed(&sweeps);
     claims.extend(starting(&sweeps));
@@ -26,15 +26,8 @@ pub(super) fn claims(rows: &[FishRow]) -> Vec<Claim> {
     claims
 }
 
-fn fish_claim(claim: &'static str, found: String, numbers: Vec<f64>, verdict: Verdict) -> Claim {
-    Claim {
-        case: "fish",
-        section: "10.2",
-        claim,
-        found,
-        numbers,
-        verdict,
-    }
+fn fish_claim(claim: &'static str, found: String, numbers: Vec<f64>, verdict: Verdict) -> Told {
+    ("10.2", claim, found, numbers, verdict)
 }
 
 fn trend(
@@ -54,7 +47,7 @@ fn trend(
     (text, values.concat(), verdict)
 }
 
-fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
+fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Told> {
     let (text, numbers, verdict) = trend(sweeps, |r| -r.mean_speed, 4);
     let rows = &sweeps[0];
     let rise = column(rows, |r| r.t_up_to_speed);
@@ -110,7 +103,7 @@ fn gains(row: &FishRow) -> Vec<f64> {
     speeds.windows(2).take(3).map(|w| w[0] - w[1]).collect()
 }
 
-fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
+fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Told> {
     let (text, numbers, verdict) = trend(sweeps, |r| -r.start_acceleration, 3);
     let part = column(&sweeps[0], |r| r.mean_acceleration / r.start_acceleration);
     let frequency = column(&sweeps[1], |r| r.acceleration_omega);
@@ -149,7 +142,7 @@ fn hertz(omega: f64) -> f64 {
     omega / std::f64::consts::TAU
 }
 
-fn swinging(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
+fn swinging(sweeps: &[Vec<FishRow>; 3]) -> Vec<Told> {
     let ratio: Vec<f64> = sweeps
         .iter()
         .flatten()

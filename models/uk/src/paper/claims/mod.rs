@@ -72,11 +72,24 @@ pub(super) struct Claim {
     pub(super) verdict: Verdict,
 }
 
+/// Of a claim all but its case, in the same order.
+type Told = (&'static str, &'static str, String, Vec<f64>, Verdict);
+
 /// All claims. The rows of the chain are in order of x0.
 pub(super) fn judge(chain_rows: &[ChainRow], fish_rows: &[FishRow]) -> Vec<Claim> {
-    let mut claims = chain::claims(chain_rows);
-    claims.extend(fish::claims(fish_rows));
-    claims
+    let of = |case| {
+        move |(section, claim, found, numbers, verdict): Told| Claim {
+            case,
+            section,
+            claim,
+            found,
+            numbers,
+            verdict,
+        }
+    };
+    let chain = chain::claims(chain_rows).into_iter().map(of("uchain"));
+    let fish = fish::claims(fish_rows).into_iter().map(of("fish"));
+    chain.chain(fish).collect()
 }
 
 fn column<T>(rows: &[T], value: impl Fn(&T) -> f64) -> Vec<f64> {

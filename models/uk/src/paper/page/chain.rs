@@ -6,7 +6,7 @@ use uktool::html::{Cell, embedded, figure, figure_of, fixed, signed, table};
 use super::super::Paper;
 use super::super::chain::{ChainRow, FILM};
 
-pub(super) fn section(paper: &Paper) -> Markup {
+pub(super) fn section(paper: &Paper<'_>) -> Markup {
     let (rows, catenary) = (&paper.uchain, &paper.uchain_catenary);
     let x0 = rows.first().map_or(0.0, |r| r.x0);
     html! {

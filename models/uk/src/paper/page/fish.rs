@@ -6,7 +6,7 @@ use uktool::html::{Cell, embedded, figure, figure_of, fixed, joined, table};
 use super::super::fish::{FILM, FishRow, WINDOW, sweep};
 use super::super::{Paper, published};
 
-pub(super) fn section(paper: &Paper) -> Markup {
+pub(super) fn section(paper: &Paper<'_>) -> Markup {
     let amplitude = sweep(&paper.fish, 0, |r| r);
     let (from, to) = WINDOW;
     html! {

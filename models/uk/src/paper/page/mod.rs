@@ -4,31 +4,29 @@ mod chain;
 mod fish;
 
 use maud::{Markup, html};
-use uktool::html::{Cell, Page, Section, fixed, power_of_ten, table};
+use uktool::html::{Cell, Page, fixed, power_of_ten, table};
 
 use super::Paper;
 use super::claims::{STANDARD, Verdict};
 use super::motion::RunRow;
 
-pub(super) fn html(paper: &Paper) -> String {
-    let section = Section::new;
+pub(super) fn html(paper: &Paper<'_>) -> String {
     let page = Page {
         title: "The falling U-chain and the fish robot, recomputed",
         head: head(paper),
         files: &[("paper.json", "All numbers (JSON)")],
         sections: vec![
-            section(
-                "chain",
-                "U-chain",
-                "The falling U-chain",
+            (
+                ["chain", "U-chain", "The falling U-chain"],
                 chain::section(paper),
             ),
-            section("fish", "Fish robot", "The fish robot", fish::section(paper)),
-            section("claims", "Claims", "The paper's claims", claims(paper)),
-            section(
-                "accuracy",
-                "Accuracy and cost",
-                "Accuracy and cost",
+            (
+                ["fish", "Fish robot", "The fish robot"],
+                fish::section(paper),
+            ),
+            (["claims", "Claims", "The paper's claims"], claims(paper)),
+            (
+                ["accuracy", "Accuracy and cost", "Accuracy and cost"],
                 accuracy(paper),
             ),
         ],
@@ -37,7 +35,7 @@ pub(super) fn html(paper: &Paper) -> String {
     page.render()
 }
 
-fn head(paper: &Paper) -> Markup {
+fn head(paper: &Paper<'_>) -> Markup {
     let off = paper.uchain.iter().map(|r| (r.h_max - r.paper.h_max).abs());
     let hold = |v| paper.claims.iter().filter(|c| c.verdict == v).count();
     html! {
@@ -56,7 +54,7 @@ fn head(paper: &Paper) -> Markup {
     }
 }
 
-fn claims(paper: &Paper) -> Markup {
+fn claims(paper: &Paper<'_>) -> Markup {
     let of = |case: &'static str| {
         let claims = paper.claims.iter().filter(move |c| c.case == case);
         claims.map(|c| {
@@ -88,7 +86,7 @@ fn unbroken(text: &str) -> String {
     })
 }
 
-fn accuracy(paper: &Paper) -> Markup {
+fn accuracy(paper: &Paper<'_>) -> Markup {
     let caption = html! {
         "All runs at tolerance " (power_of_ten(paper.tolerance)) ". Residuals are the largest at samples every 10 ms: |φ| of the \
          constraints as declared, |φ̇| of their rates. The energy drift is a part of the energy exchanged (the fish is driven and damped, \
@@ -96,7 +94,7 @@ fn accuracy(paper: &Paper) -> Markup {
     };
     let heads = "run | to (s) | ∣φ∣ | ∣φ̇∣ | energy drift | steps | rejected | evaluations | projections | fallbacks | time (s)";
     html! {
-        (table(caption, heads, paper.runs.iter().map(run_row)))
+        (table(caption, heads, paper.runs.iter().map(|run| run_row(run))))
         p {
             "Computing and drawing took " (fixed(paper.seconds, 1)) " s in all. Samples of every run are in " a href="csv/" { "csv/" } ", \
              named as here."
