@@ -5,10 +5,14 @@
 //! levers counts, so that neither one long lever nor one that vanishes at a state decides; and since sines may all vanish at a state, A is
 //! looked at beside it, too, with angles turned. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
 //! no row, directly or by others, are compared by their inertias.
+//!
+//! Nor does an entry say anything that rounding alone makes: of the two ends of an axle the angle of a cart is a cos² + a sin² − …, which
+//! is 1e-17 where the axle goes through the centre, and would be worth any length.
 
 use std::f64::consts::FRAC_PI_2;
 
 use crate::mechanism::Prepared;
+use crate::noise::Noise;
 use crate::scan::largest_by;
 use crate::spec::Spec;
 
@@ -25,6 +29,12 @@ const LEAST: f64 = 1e3 * f64::EPSILON;
 
 /// A row less than this share of what it is beside a state vanishes there.
 const VANISHING: f64 = 1.0 / 32.0;
+
+/// Entries of a row that are so far apart are looked at for rounding.
+const FAR_APART: f64 = 1e4;
+/// An entry of more rounding than this share of itself tells nothing of units: what rows that imply each other leave there would count,
+/// for ranks have a tolerance no larger.
+const KNOWN: f64 = 1e-11;
 
 /// Tolerances ask for no less than so many roundings of the longest rod.
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
@@ -46,6 +56,8 @@ pub(crate) struct Measure {
     jacobian: Vec<f64>,
     /// The largest entry of each class in each row.
     entries: Vec<f64>,
+    /// What tells of the rounding of entries, made where it is first asked for.
+    noise: Option<Box<Noise>>,
     /// The largest entry of each row, measured, here or beside the state; 0 where A is not looked at beside it.
     natural: Vec<f64>,
     levers: Vec<f64>,
@@ -75,6 +87,7 @@ impl Measure {
             beside: vec![0.0; n],
             jacobian: vec![0.0; room],
             entries: vec![0.0; classes * m],
+            noise: None,
             natural: vec![0.0; m],
             levers: Vec::with_capacity(m),
             known: vec![false; classes],
@@ -137,6 +150,9 @@ impl Measure {
             *entry = entry.max(jacobian[place].abs()).max(other.unwrap_or(0.0));
         }
         self.jacobian = beside;
+        if self.are_far_apart() {
+            self.clear_rounding(mech, t, [q, v]);
+        }
         self.link(mass);
         let pairs = self.scale.iter_mut().zip(&self.class);
         pairs.for_each(|(scale, class)| *scale = self.factors[*class]);
@@ -257,6 +273,28 @@ impl Measure {
                     }
                 }
             }
+        }
+    }
+
+    /// Whether entries of two classes in one row are as far apart as a number and its rounding may be.
+    fn are_far_apart(&self) -> bool {
+        self.entries.chunks_exact(self.classes).any(|row| {
+            let most = row.iter().fold(0.0_f64, |most, x| most.max(*x));
+            row.iter().any(|x| *x > 0.0 && *x * FAR_APART < most)
+        })
+    }
+
+    /// Takes away entries that are hardly more than rounding, at the state and beside it.
+    fn clear_rounding(&mut self, mech: &Prepared, t: f64, [q, v]: [&[f64]; 2]) {
+        let noise = self.noise.get_or_insert_with(|| Box::new(Noise::new(mech)));
+        for q in [q, &self.beside] {
+            noise.go(mech, t, [q, v], |_| [0.0; 2]);
+            noise.jacobian(|c, j, rounding| {
+                let entry = &mut self.entries[c * self.classes + self.class[j]];
+                if KNOWN * *entry < f64::EPSILON * rounding {
+                    *entry = 0.0;
+                }
+            });
         }
     }
 

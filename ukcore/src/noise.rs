@@ -70,18 +70,25 @@ impl Noise {
         bounds(&self.rows, out);
     }
 
-    /// Puts zeros in place of the rows of A that are less than `share` of their rounding, in units of ε, in all coordinates but those
-    /// `held`.
-    pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, held: &[usize]) {
+    /// Tells of each entry (c, j) of A that may differ from 0.
+    pub(crate) fn jacobian(&mut self, mut tell: impl FnMut(usize, usize, f64)) {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);
         let m = self.rows.len();
-        let pattern = self.mechanism.spec().structure.jacobian_pattern;
-        let mut counts = vec![false; m];
-        for &(c, j) in pattern {
-            let (entry, rounding) = (jacobian[j * m + c], self.terms.jacobian[j * m + c]);
-            counts[c] |= entry.abs() > share * rounding.bound() && !held.contains(&j);
+        for &(c, j) in self.mechanism.spec().structure.jacobian_pattern {
+            tell(c, j, self.terms.jacobian[j * m + c].bound());
         }
+    }
+
+    /// Puts zeros in place of the rows of A that are less than `share` of their rounding, in units of ε, in all coordinates but those
+    /// `held`.
+    pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, held: &[usize]) {
+        let m = self.rows.len();
+        let mut counts = vec![false; m];
+        self.jacobian(|c, j, rounding| {
+            counts[c] |= jacobian[j * m + c].abs() > share * rounding && !held.contains(&j);
+        });
+        let pattern = self.mechanism.spec().structure.jacobian_pattern;
         for &(c, j) in pattern.iter().filter(|(c, _)| !counts[*c]) {
             jacobian[j * m + c] = 0.0;
         }
