@@ -50,6 +50,12 @@ impl Verdict {
         }
     }
 
+    /// The worst of what these parts miss; one that is no number fails.
+    fn all(parts: impl Iterator<Item = f64>, admitted: f64) -> Self {
+        let verdicts = parts.map(|part| Verdict::missed(part, admitted));
+        verdicts.max().unwrap_or(Verdict::Holds)
+    }
+
     /// The worse one.
     fn and(self, other: Verdict) -> Self {
         self.max(other)
@@ -116,13 +122,12 @@ fn between(values: &[f64], (low, high): (f64, f64)) -> Verdict {
 /// Whether no value is below a stated number.
 fn at_least(values: &[f64], stated: f64) -> Verdict {
     let missed = values.iter().map(|v| (stated - v) / stated.abs());
-    Verdict::missed(missed.fold(0.0, f64::max), MET)
+    Verdict::all(missed, MET)
 }
 
 /// Whether what is said to be so all the time is so in each of these parts of it.
 fn throughout(parts: &[f64]) -> Verdict {
-    let least = parts.iter().copied().fold(f64::INFINITY, f64::min);
-    Verdict::missed(1.0 - least, 0.0)
+    Verdict::all(parts.iter().map(|part| 1.0 - part), 0.0)
 }
 
 /// Whether no value is above a stated number.
@@ -139,24 +144,24 @@ fn up_to(values: &[f64], stated: f64) -> Verdict {
 
 /// Whether each of the larger ones is larger than what stands beside it.
 fn larger(pairs: impl IntoIterator<Item = (f64, f64)>) -> Verdict {
-    let missed = pairs
-        .into_iter()
-        .map(|(larger, smaller)| match larger > smaller {
-            true => 0.0,
-            // Equal is missed, though by nothing.
-            false => ((smaller - larger) / smaller.abs()).max(f64::MIN_POSITIVE),
-        });
-    Verdict::missed(missed.fold(0.0, f64::max), 0.0)
+    let pairs = pairs.into_iter();
+    let missed = pairs.map(|(larger, smaller)| above(larger, smaller, smaller.abs()));
+    Verdict::all(missed, 0.0)
 }
 
 /// Whether each value is larger than the one before.
 fn growing(values: &[f64]) -> Verdict {
     let range = spread(values.iter().copied());
-    let missed = values.windows(2).map(|w| match w[1] > w[0] {
+    let missed = values.windows(2).map(|w| above(w[1], w[0], range));
+    Verdict::all(missed, 0.0)
+}
+
+/// What is missed where one number has to be larger than another, as a share of `size`: equal is missed, though by nothing.
+fn above(larger: f64, smaller: f64, size: f64) -> f64 {
+    match larger > smaller {
         true => 0.0,
-        false => ((w[0] - w[1]) / range).max(f64::MIN_POSITIVE),
-    });
-    Verdict::missed(missed.fold(0.0, f64::max), 0.0)
+        false => (smaller - larger) / size + f64::MIN_POSITIVE,
+    }
 }
 
 #[cfg(test)]
@@ -174,6 +179,12 @@ mod tests {
         assert_eq!(up_to(&[21.0, 39.0], PULL), Verdict::Holds);
         assert_eq!(up_to(&[21.0, 35.3], PULL), Verdict::Nearly);
         assert_eq!(up_to(&[21.0], PULL), Verdict::Fails);
+        // What is no number is met by nothing.
+        let nan = f64::NAN;
+        assert_eq!(at_least(&[1.0, nan], 0.5), Verdict::Fails);
+        assert_eq!(throughout(&[1.0, nan]), Verdict::Fails);
+        assert_eq!(larger([(nan, 1.0), (2.0, 1.0)]), Verdict::Fails);
+        assert_eq!(growing(&[1.0, nan, 3.0]), Verdict::Fails);
         // An order is no number: it holds or is missed.
         assert_eq!(larger([(1.001, 1.0)]), Verdict::Holds);
         assert_eq!(larger([(0.95, 1.0)]), Verdict::Nearly);
