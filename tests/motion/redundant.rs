@@ -1,6 +1,7 @@
 //! Rows that follow from others are left out of the straight line: motions of redundant mechanisms without one dense solve, accelerations
 //! against eq. 19 on and off the constraints, and what must not be left out.
 
+mod axle;
 mod bennett;
 mod door;
 mod mechanisms;
