@@ -402,3 +402,54 @@ fn hunt_for_near_misses() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// A bead on the curve in which the cylinders x² + z² = 1 and y² + z² = 1 + e meet, which come near each other at z = 1, with a third row
+/// that follows from theirs.
+macro_rules! cylinders {
+    ($name:ident, $($rows:tt)*) => {
+        ukcore::multibody! {
+            pub $name { params { e = 0.0 } coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { $($rows)* } }
+        }
+    };
+}
+
+cylinders!(Last, c: sq(x) + sq(z) = 1, d: sq(y) + sq(z) = 1 + e, third: sq(x) - sq(y) = -e);
+cylinders!(First, third: sq(y) - sq(x) = e, c: sq(x) + sq(z) = 1, d: sq(y) + sq(z) = 1 + e);
+cylinders!(Between, c: sq(x) + sq(z) = 1, third: 3 * (sq(x) - sq(y)) = -3 * e, d: sq(y) + sq(z) = 1 + e);
+cylinders!(Sum, c: sq(x) + sq(z) = 1, d: sq(y) + sq(z) = 1 + e, third: sq(x) + sq(y) + 2 * sq(z) = 2 + e);
+
+/// For e > 0 y keeps its sign, for e < 0 x does.
+#[test]
+fn rows_that_follow_from_others_hide_no_near_miss() {
+    for e in [1e-4, -1e-6, 1e-10] {
+        for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+            for tolerance in [1e-3, 1e-5, 1e-8] {
+                for speed in [0.5, 4.4] {
+                    let (s, y) = (0.3_f64, (0.3_f64.cos().powi(2) + e).sqrt());
+                    let slope = -s.cos() * s.sin() / y;
+                    let rate = speed / slope.hypot(1.0);
+                    let start = State {
+                        t: 0.0,
+                        q: vec![s.cos(), y, s.sin()],
+                        v: vec![-s.sin() * rate, slope * rate, s.cos() * rate],
+                    };
+                    let all: [Prepared; 4] = [
+                        (&Last { e }).into(),
+                        (&First { e }).into(),
+                        (&Between { e }).into(),
+                        (&Sum { e }).into(),
+                    ];
+                    for mechanism in all {
+                        let name = mechanism.spec().name;
+                        let run = Simulation::new(mechanism).method(method);
+                        let run = run.tolerance(tolerance).start(start.clone()).until(3.0);
+                        let case = format!("{name}, {e:e}, {method}, {tolerance:e}, {speed}");
+                        let run = run.unwrap_or_else(|failed| panic!("{case}: {failed}"));
+                        let kept = usize::from(e > 0.0);
+                        assert!(run.samples().all(|at| at.q[kept] > 0.0), "{case}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -78,14 +78,25 @@ pub(super) fn find(
     near: &State,
     vanishing: Option<&Vanishing>,
 ) -> Option<Singular> {
+    let all = mech.spec().m();
+    find_of(mech, near, vanishing, all)
+}
+
+/// The same, where no more rows than `most` count anywhere.
+fn find_of(
+    mech: &Prepared,
+    near: &State,
+    vanishing: Option<&Vanishing>,
+    most: usize,
+) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     if let Some(vanishing) = vanishing {
         search.compare(vanishing);
     }
     let near = &search.stand(near)?;
     let pivots = search.dense.cod.pivots();
-    let counting = pivots.len();
-    let significance = *pivots.last()?;
+    let counting = pivots.len().min(most);
+    let significance = pivots[..counting].last().copied()?;
     if vanishing.is_some() {
         search.ways = significance.recip();
     }
@@ -195,6 +206,36 @@ pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     let left = place.and_then(|place| cod.pivots().get(place));
     let all = vanishing.size_in(search.terms.rows());
     left.is_some_and(|left| *left > RANK_CEILING * all)
+}
+
+/// The singular position that a motion from `t` meets where a row of A that others imply vanishes: where what it says is what they have
+/// beside each other, that vanishes with it, and shows only in rows that are compared with what they have been.
+pub(super) fn implied(mech: &Prepared, t: f64, vanishing: &Vanishing) -> Option<Singular> {
+    let Vanishing { near, rank, .. } = vanishing;
+    let mut search = Search::new(mech, near);
+    search.compare(vanishing);
+    search.factor(&near.v)?;
+    let cod = &search.dense.cod;
+    let counting = cod.pivots().len().min(*rank);
+    let significance = cod.pivots()[..counting].last().copied()?;
+    if significance > CLEAR {
+        return None;
+    }
+    let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
+    let constraints = mech.spec().constraint_names(lost);
+    find_of(mech, near, Some(vanishing), *rank).or_else(|| {
+        let way = (vanishing.t - t).abs();
+        (vanishing.t != near.t).then(|| Singular {
+            t: vanishing.t,
+            gap: match vanishing.least < UNTOLD {
+                true => f64::NAN,
+                false => vanishing.least * way,
+            },
+            significance,
+            rate: way.recip(),
+            constraints,
+        })
+    })
 }
 
 impl<'a> Search<'a> {

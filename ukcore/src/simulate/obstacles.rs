@@ -136,7 +136,10 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     } = &found;
     let spec = mech.spec();
     if !crossing::counts(mech, &found) {
-        return None;
+        let implied = *row < spec.holonomic && !found.rest;
+        return implied
+            .then(|| crossing::implied(mech, old.t, &found))
+            .flatten();
     }
     if found.rest {
         // It may leave in any direction, whichever way it came.

@@ -17,7 +17,8 @@ use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
-use crate::scan::dot;
+use crate::pinv::Decomposition;
+use crate::scan::{dot, or_one};
 use crate::zero::locate;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
@@ -36,6 +37,9 @@ const DIP: f64 = 0.25;
 
 /// A row that is this share of what it has been is near to vanishing.
 const SMALL: f64 = 1.0 / 32.0;
+
+/// Rows that had less than this beside others where a run began were implied by these.
+const INDEPENDENT: f64 = 1e-9;
 
 /// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
 /// direction.
@@ -70,6 +74,8 @@ pub(super) struct Vanishing {
     pub(super) reached: f64,
     /// The motion comes to rest there.
     pub(super) rest: bool,
+    /// As many rows as counted where the run began.
+    pub(super) rank: usize,
 }
 
 impl Vanishing {
@@ -355,7 +361,24 @@ impl RowWatch {
             least,
             reached: least,
             rest: false,
+            rank: self.rank(),
         })
+    }
+
+    /// As many rows as counted where the run began.
+    fn rank(&self) -> usize {
+        let m = self.sizes.len();
+        let n = self.first.len() / m;
+        let mut system = Decomposition::new(m, n);
+        let rows = system.load(m).chunks_exact_mut(n).enumerate();
+        for (c, row) in rows {
+            let entries = self.first.iter().skip(c).step_by(m);
+            let size = entries.clone().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let pairs = row.iter_mut().zip(entries);
+            pairs.for_each(|(x, a)| *x = a / or_one(size));
+        }
+        system.factor(&vec![1.0; n], &vec![1.0; m], INDEPENDENT);
+        system.pivots().len()
     }
 
     fn scale(&self) -> Vec<f64> {
@@ -437,6 +460,7 @@ impl RowWatch {
             least,
             reached: ends / self.sizes[c],
             rest: false,
+            rank: self.rank(),
         })
     }
 }
