@@ -126,6 +126,25 @@ pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
 pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
     let found = match found {
         Loss::Row(found) => found,
+        Loss::Within {
+            row,
+            ends: [from, to],
+            otherwise,
+        } => {
+            let met = |position: &Singular| {
+                position.gap == 0.0 && (position.t - from) * (to - position.t) > 0.0
+            };
+            let found = crossing::counts(mech, &row)
+                .then(|| crossing::find(mech, &row.near, Some(&row)))
+                .flatten();
+            return match found.filter(met) {
+                Some(position) => Some(Singular {
+                    significance: row.reached,
+                    ..position
+                }),
+                None => otherwise.and_then(|other| vanishing(mech, *other, old)),
+            };
+        }
         Loss::Rank { states, whole } => {
             let [near, behind] = &*states;
             return crossing::between(mech, old.t, [near, behind], whole);
