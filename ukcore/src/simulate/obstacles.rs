@@ -197,6 +197,22 @@ fn size(mechanism: &Prepared, at: Sample<'_>, measure: &Measure) -> f64 {
     sizes.find(good).unwrap_or(1.0)
 }
 
+/// The kinetic energy of a mechanism that is at rest but for rounding: with velocities that move each coordinate by a rounding of their
+/// size in the time `step`.
+pub(super) fn rounded_rest(mechanism: &Prepared, at: Sample<'_>, step: f64) -> f64 {
+    let measure = Measure::at(mechanism, at.t, [at.q, at.v]);
+    let way = f64::EPSILON * size(mechanism, at, &measure);
+    let mut v = vec![0.0; at.q.len()];
+    let units = measure.scale.iter().enumerate();
+    let each = units.map(|(i, unit)| {
+        v[i] = way * unit / step;
+        let kinetic = mechanism.energy(at.t, at.q, &v).kinetic;
+        v[i] = 0.0;
+        kinetic
+    });
+    each.sum()
+}
+
 /// Whether a motion from `start` can have gone no further than `way` till it got to a state: neither as far as that is off, nor as its
 /// velocity and its acceleration at the start would take it in the time.
 fn has_begun(
