@@ -491,7 +491,12 @@ impl RowWatch {
             }
         }
         // Rows may have come back to what they were.
-        change = change.max(std::mem::take(&mut self.turns));
+        let turns = std::mem::take(&mut self.turns);
+        change = if turns > STEEPER * change {
+            turns
+        } else {
+            change
+        };
         // In x times the time between both it changes by (change + gain) x + gain x².
         let fast = change + gain;
         let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
