@@ -388,3 +388,13 @@ fn a_drive_that_comes_to_a_dead_centre_is_told() {
         }
     }
 }
+
+#[test]
+fn a_singular_position_without_names_is_a_sentence() {
+    let constraints = Vec::new();
+    let text = ukcore::Error::Singular { constraints }.to_string();
+    assert!(
+        text.contains("where a constraint is implied by the others"),
+        "{text}"
+    );
+}

@@ -496,3 +496,38 @@ fn hunt() {
     println!("{outcomes:?}");
     assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
 }
+
+ukcore::multibody! {
+    /// Six rods pinned to a ring on a level table.
+    Ring {
+        const N: usize = 6;
+        params { a = 0.5 }
+        bodies { for i in 0..N { planar rod[i] { mass: 1, inertia: 0.1 } } }
+        let next = |i| (i + 1) - N * ((i + 1) / N);
+        holonomic { for i in 0..N { p[i]: pin(rod[i].at([a, 0]), rod[next(i)].at([-a, 0])) } }
+        start hexagon {
+            for i in 0..N {
+                rod[i].angle near i * PI / 3 + PI / 2
+                rod[i].x near a * sqrt(3) * cos(i * PI / 3)
+                rod[i].y near a * sqrt(3) * sin(i * PI / 3)
+            }
+        }
+    }
+}
+
+/// All energy that is exchanged at rest is rounding, and so is its change.
+#[test]
+fn rest_without_forces_is_a_motion_for_rattle() {
+    let ring = Ring::default();
+    let start = ring.start("hexagon", &[].into()).expect("a start");
+    for step in [1e-5, 1e-3, 0.05] {
+        let run = ukcore::Simulation::new(ring.clone())
+            .method(ukcore::Method::Rattle { step })
+            .start(start.clone())
+            .until(200.0 * step);
+        let run = run.unwrap_or_else(|failure| panic!("{step}: {failure}"));
+        let end = run.last().expect("an end");
+        let moved = end.q.iter().zip(&start.q).map(|(a, b)| (a - b).abs());
+        assert!(moved.fold(0.0, f64::max) < 1e-12, "{step}");
+    }
+}

@@ -26,6 +26,11 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// The first branch of these by itself.
+    Sine { coords { a } mass { a: 2.0 } potential { sin(a) } }
+}
+
+ukcore::multibody! {
     /// A point on a cone, free of forces unless it is heavy.
     Cone {
         params { g = 0.0 }
@@ -157,6 +162,52 @@ fn one_row_with_two_branches_is_passed_in_the_first() {
                     off < 1e-8 && drift < 3e3 * tolerance + 1e-6,
                     "{place}: {off:e}, {drift:e}"
                 );
+            }
+        }
+    }
+}
+
+/// Nothing or little acts, so that a step may go over many nodes, and the row is at its end as it was at its start.
+#[test]
+fn samples_of_steps_over_many_nodes_are_those_of_the_motion() {
+    let run = |mechanism: Prepared, [q, v]: [&[f64]; 2], (method, tolerance, end)| {
+        let simulation = simulation(mechanism, q, v, method, tolerance);
+        simulation.every(0.1).until(end)
+    };
+    for method in [Method::Dop853, Method::Dopri5] {
+        for tolerance in [1e-3, 1e-4, 1e-6] {
+            for k in 0..12 {
+                let speed = 0.8 + 0.77 * f64::from(k);
+                for end in [8.0, -8.0] {
+                    let place = format!("{method}, {tolerance:e}, {speed}, {end}");
+                    let start = [&[0.5, -0.5][..], &[speed, -speed]];
+                    let free = Prepared::from(&Sines { g: 0.0 });
+                    let samples = run(free, start, (method, tolerance, end));
+                    let samples = samples.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                    let off = worst(&samples, |s| {
+                        let a = 0.5 + speed * s.t;
+                        let off = [s.q[0] - a, s.q[1] + a, s.v[0] - speed, s.v[1] + speed];
+                        off.iter().fold(0.0, |most, x| x.abs().max(most))
+                    });
+                    assert!(off < 1e-7, "{place}: {off:e}");
+                }
+                if k == 0 {
+                    continue;
+                }
+                let place = format!("{method}, {tolerance:e}, {speed}, pulled");
+                let pulled = Prepared::from(&Sines { g: 1.0 });
+                let start = [&[0.5, -0.5][..], &[speed, -speed]];
+                let samples = run(pulled, start, (method, tolerance, 8.0));
+                let samples = samples.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let alone = Prepared::from(&Sine::default());
+                let alone = run(alone, [&[0.5], &[speed]], (Method::Dop853, 1e-11, 8.0));
+                let alone = alone.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                for (sample, alone) in samples.samples().zip(alone.samples()) {
+                    let off = (sample.q[0] - alone.q[0]).abs();
+                    assert!(off < 1e3 * tolerance, "{place}, {}: {off:e}", sample.t);
+                    let off = (sample.q[0] + sample.q[1]).abs();
+                    assert!(off < 1e-8, "{place}, {}: {off:e}", sample.t);
+                }
             }
         }
     }

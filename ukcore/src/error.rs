@@ -110,7 +110,7 @@ pub enum Error {
         "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end \
          the run before it, start it elsewhere, or change lengths or the start such that the position is met exactly on the \
          way or missed by more",
-        quoted(constraints)
+        if constraints.is_empty() { "a constraint".to_owned() } else { quoted(constraints) }
     )]
     Singular {
         /// Their names.

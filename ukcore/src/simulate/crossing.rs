@@ -135,17 +135,17 @@ pub(super) fn between(
     whole: bool,
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
-    let mut significance = |at: &State| {
+    let mut weakest = |at: &State| {
         search.stand(at)?;
-        search.dense.cod.pivots().last().copied()
+        let cod = &search.dense.cod;
+        let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
+        Some((*cod.pivots().last()?, mech.spec().constraint_names(lost)))
     };
-    let least = significance(behind)?.min(significance(near)?);
+    let ends = [weakest(near)?, weakest(behind)?];
+    let (least, constraints) = ends.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     if least > CLEAR {
         return None;
     }
-    let cod = &search.dense.cod;
-    let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
-    let constraints = mech.spec().constraint_names(lost);
     // Steps are too long yet to tell, or it cannot be told.
     let way = (behind.t - t).abs();
     find(mech, near, None).or_else(|| {

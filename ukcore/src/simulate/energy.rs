@@ -24,8 +24,13 @@ impl EnergyWatch {
         EnergyWatch { step, drift }
     }
 
-    /// Refuses an energy that a motion cannot have which began with the first one.
-    pub(super) fn check(&mut self, now: Energy) -> Result<(), Error> {
+    /// Refuses an energy that a motion cannot have which began with the first one. `rounded` is the kinetic energy that rounding makes of
+    /// none, over a step.
+    pub(super) fn check(
+        &mut self,
+        now: Energy,
+        rounded: impl FnOnce(f64) -> f64,
+    ) -> Result<(), Error> {
         let (change, terms) = self.drift.add(now);
         let exchanged = self.drift.exchanged;
         // The energy of a motion gone astray may not be a number.
@@ -33,6 +38,10 @@ impl EnergyWatch {
             return Ok(());
         }
         let step = self.step;
+        // At rest all that is exchanged may be rounding, too.
+        if change <= rounded(step) {
+            return Ok(());
+        }
         let share = 100.0 * change / exchanged;
         let reason = format!(
             "is {step:?}, which is too long here: the energy has changed by {share:.0} % of the energy exchanged; take a smaller one"

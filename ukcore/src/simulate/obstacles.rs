@@ -126,6 +126,25 @@ pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
 pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
     let found = match found {
         Loss::Row(found) => found,
+        Loss::Within {
+            row,
+            ends: [from, to],
+            otherwise,
+        } => {
+            let met = |position: &Singular| {
+                position.gap == 0.0 && (position.t - from) * (to - position.t) > 0.0
+            };
+            let found = crossing::counts(mech, &row)
+                .then(|| crossing::find(mech, &row.near, Some(&row)))
+                .flatten();
+            return match found.filter(met) {
+                Some(position) => Some(Singular {
+                    significance: row.reached,
+                    ..position
+                }),
+                None => otherwise.and_then(|other| vanishing(mech, *other, old)),
+            };
+        }
         Loss::Rank { states, whole } => {
             let [near, behind] = &*states;
             return crossing::between(mech, old.t, [near, behind], whole);
@@ -179,6 +198,22 @@ fn size(mechanism: &Prepared, at: Sample<'_>, measure: &Measure) -> f64 {
     let mut sizes = sizes.chain(std::iter::once_with(lengths)).chain([1.0]);
     let good = |size: &f64| *size > 0.0 && size.is_finite();
     sizes.find(good).unwrap_or(1.0)
+}
+
+/// The kinetic energy of a mechanism that is at rest but for rounding: with velocities that move each coordinate by a rounding of their
+/// size in the time `step`.
+pub(super) fn rounded_rest(mechanism: &Prepared, at: Sample<'_>, step: f64) -> f64 {
+    let measure = Measure::at(mechanism, at.t, [at.q, at.v]);
+    let way = f64::EPSILON * size(mechanism, at, &measure);
+    let mut v = vec![0.0; at.q.len()];
+    let units = measure.scale.iter().enumerate();
+    let each = units.map(|(i, unit)| {
+        v[i] = way * unit / step;
+        let kinetic = mechanism.energy(at.t, at.q, &v).kinetic;
+        v[i] = 0.0;
+        kinetic
+    });
+    each.sum()
 }
 
 /// Whether a motion from `start` can have gone no further than `way` till it got to a state: neither as far as that is off, nor as its

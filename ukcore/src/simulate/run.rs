@@ -224,7 +224,9 @@ impl Problem for Run<'_> {
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {
         if let Some(energy) = &mut self.energy {
             let Sample { t, q, v, .. } = step.new;
-            energy.check(self.solver.mechanism().energy(t, q, v))?;
+            let mechanism = self.solver.mechanism();
+            let rounded = |size| obstacles::rounded_rest(mechanism, step.new, size);
+            energy.check(mechanism.energy(t, q, v), rounded)?;
         }
         obstacles::check_branch(&mut self.solver, self.weakest, step)?;
         let error = self.recorder.step(step)?;

@@ -11,6 +11,8 @@
 
 use super::independence::Independence;
 use super::leaves::{Compared, Leaves};
+use std::rc::Rc;
+
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::integrate::Method;
@@ -45,6 +47,9 @@ const INDEPENDENT: f64 = 1e-9;
 /// direction.
 const BEFORE: f64 = 0.01;
 
+/// Parts of a step at which rows are looked at first, so unevenly that no turns come out even at all of them.
+const LOOKS: [f64; 5] = [0.0, 0.19, 0.45, 0.68, 1.0];
+
 /// A step over which a combination of rows is reversed is halved so often in search of the place.
 const HALVINGS: i32 = 8;
 
@@ -52,6 +57,14 @@ const HALVINGS: i32 = 8;
 pub(super) enum Loss {
     /// A row by itself.
     Row(Vanishing),
+    /// The same between states within a step, which need not be those of the motion: of concern where branches cross. Else what its ends
+    /// tell.
+    Within {
+        row: Vanishing,
+        /// The times of the ends.
+        ends: [f64; 2],
+        otherwise: Option<Box<Loss>>,
+    },
     /// A combination of rows, between two states of the motion; whether all rows were looked at, or some that others have implied were not.
     Rank {
         states: Box<[State; 2]>,
@@ -117,6 +130,8 @@ pub(super) struct RowWatch {
     share: f64,
     /// The same, at the last state that was looked at alone.
     left: [f64; 2],
+    /// By how much of itself a row has changed on the way along the step in hand, where that was looked at; else 0.
+    turns: f64,
     /// When to look again.
     pub(super) due: f64,
 }
@@ -171,6 +186,18 @@ impl Matrix {
         self.squares[c].sqrt()
     }
 
+    /// By which share of its greater length a row differs from that of `other`.
+    fn change(&self, other: &Matrix, c: usize) -> f64 {
+        let pairs = self.row(c).zip(other.row(c));
+        let change = pairs.map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
+        change / self.length(c).max(other.length(c))
+    }
+
+    /// The product of a row and that of `other`.
+    fn product(&self, other: &Matrix, c: usize) -> f64 {
+        self.row(c).zip(other.row(c)).map(|(a, b)| a * b).sum()
+    }
+
     fn row(&self, c: usize) -> impl Iterator<Item = f64> {
         let entries = self.entries.iter().skip(c);
         entries.step_by(self.squares.len()).copied()
@@ -207,6 +234,10 @@ impl RowWatch {
         }
         self.here.take(mech, new, self.measure.as_ref());
         self.compare(mech);
+        self.turns = 0.0;
+        // Over a step as long as this, rows may be as they were at its start after any number of turns.
+        let long = first || (new.t - old.t).abs() > (self.due - self.seen.t).abs();
+        let within = long.then(|| self.within(mech, old, new)).flatten();
         let reversed = self.reversed().next().is_some() || self.share == 0.0;
         if reversed && self.look_back(mech, old) {
             self.compare(mech);
@@ -217,8 +248,16 @@ impl RowWatch {
         let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
         let row = first.or_else(|| self.smallest(&self.here, new));
         let row = row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten());
-        row.map(Loss::Row)
-            .or_else(|| self.dependent(mech, old, new))
+        let told = row.map(Loss::Row);
+        let told = told.or_else(|| self.dependent(mech, old, new));
+        match within {
+            Some(row) => Some(Loss::Within {
+                row,
+                ends: [old.t, new.t],
+                otherwise: told.map(Box::new),
+            }),
+            None => told,
+        }
     }
 
     /// The row that is all but zero where the motion stands, if one is.
@@ -255,6 +294,65 @@ impl RowWatch {
             reached: most / found.size,
             ..found
         })
+    }
+
+    /// The first row that is reversed between states within the step from `old` to `new`, even if it is as it was at its end.
+    fn within(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+        let holonomic = self.may.iter().take(mech.spec().holonomic);
+        let may: Vec<usize> = holonomic
+            .enumerate()
+            .filter_map(|(c, may)| may.then_some(c))
+            .collect();
+        if may.is_empty() {
+            return None;
+        }
+        let (measure, leaves) = (self.measure.as_ref(), &self.leaves);
+        let at = |part: f64| between_states(old, new, part);
+        let look = |part: f64| {
+            let state = at(part);
+            let matrix = Matrix::at(mech, Sample::from(&state), measure, leaves);
+            (part, Rc::new(matrix))
+        };
+        let looks = LOOKS.map(look);
+        let changes = |c: &usize| -> f64 {
+            let pairs = looks.windows(2);
+            pairs.map(|pair| pair[0].1.change(&pair[1].1, *c)).sum()
+        };
+        self.turns = may.iter().map(changes).fold(0.0, f64::max);
+        // What is left to look at, the first part last.
+        let parts = looks.windows(2).rev();
+        let mut parts: Vec<_> = parts
+            .map(|pair| [pair[0].clone(), pair[1].clone()])
+            .collect();
+        while let Some([from, to]) = parts.pop() {
+            if may.iter().all(|c| from.1.change(&to.1, *c) <= CHANGE) {
+                continue;
+            }
+            if to.0 - from.0 > 0.5_f64.powi(HALVINGS) {
+                let between = look(0.5 * (from.0 + to.0));
+                parts.push([between.clone(), to]);
+                parts.push([from, between]);
+                continue;
+            }
+            let reversed = |c: &&usize| from.1.product(&to.1, **c) < 0.0;
+            let Some(row) = may.iter().find(reversed).copied() else {
+                continue;
+            };
+            let [first, .., last] = &looks;
+            let ends = first.1.length(row).min(last.1.length(row));
+            return Some(Vanishing {
+                row,
+                size: self.sizes[row],
+                scale: self.scale(),
+                near: at((from.0 - BEFORE).max(0.0)),
+                t: at(0.5 * (from.0 + to.0)).t,
+                least: from.1.length(row).min(to.1.length(row)) / ends,
+                reached: ends / self.sizes[row],
+                rest: false,
+                rank: self.rank(),
+            });
+        }
+        None
     }
 
     /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way,
@@ -416,6 +514,13 @@ impl RowWatch {
                 *size = square.sqrt();
             }
         }
+        // Rows may have come back to what they were.
+        let turns = std::mem::take(&mut self.turns);
+        change = if turns > STEEPER * change {
+            turns
+        } else {
+            change
+        };
         // In x times the time between both it changes by (change + gain) x + gain x².
         let fast = change + gain;
         let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
