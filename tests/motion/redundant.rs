@@ -8,7 +8,6 @@ mod mechanisms;
 mod mill;
 mod sarrus;
 mod sleigh;
-mod wheels;
 
 use mechanisms::SpatialFourBar;
 use models::{DoubleScottRussell, Model};

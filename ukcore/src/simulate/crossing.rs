@@ -8,10 +8,9 @@
 
 use super::vanishing::Vanishing;
 use crate::assemble::State;
-use crate::dense::{Dense, Rows};
+use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::integrate::sample::Sample;
-use crate::manifold::Level;
 use crate::measure::Measure;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
@@ -34,9 +33,6 @@ const UNTOLD: f64 = 1e-5;
 
 /// Newton steps at most.
 const MOST: usize = 20;
-
-/// The way onto the constraints ends with a step that is not shorter than this share of the one before.
-const SHORTER: f64 = 0.5;
 
 /// A Newton step longer than the first one by this factor leads elsewhere.
 const WIDEST: f64 = 2.0;
@@ -93,7 +89,7 @@ fn find_of(
     if let Some(vanishing) = vanishing {
         search.compare(vanishing);
     }
-    let near = &search.stand(near)?;
+    search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
     let counting = pivots.len().min(most);
     let significance = pivots[..counting].last().copied()?;
@@ -136,7 +132,8 @@ pub(super) fn between(
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     let mut weakest = |at: &State| {
-        search.stand(at)?;
+        (search.t, search.q) = (at.t, at.q.clone());
+        search.factor(&at.v)?;
         let cod = &search.dense.cod;
         let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
         Some((*cod.pivots().last()?, mech.spec().constraint_names(lost)))
@@ -198,7 +195,7 @@ pub(super) fn at(
 pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     let mut search = Search::new(mech, &vanishing.near);
     search.compare(vanishing);
-    if search.stand(&vanishing.near).is_none() {
+    if search.factor(&vanishing.near.v).is_none() {
         return false;
     }
     let cod = &search.dense.cod;
@@ -266,79 +263,16 @@ impl<'a> Search<'a> {
 
     /// Evaluates and factors the equations where the search stands, and takes the rank.
     fn factor(&mut self, v: &[f64]) -> Option<()> {
-        self.factor_first(self.mech.spec().m(), v)?;
-        let rank = self.rank.min(self.dense.cod.pivots().len());
-        self.dense.set_rank(rank, &self.terms.mass).ok()
-    }
-
-    /// Evaluates the equations where the search stands, and factors them with so many rows of A.
-    fn factor_first(&mut self, rows: usize, v: &[f64]) -> Option<()> {
         self.terms.dynamics(self.mech, self.t, &self.q, v);
         let massless = !self.mech.spec().structure.massless.is_empty();
         let Evaluated { mass, jacobian, .. } = &self.terms;
         let measure = &mut self.dense.measure;
         measure.take(self.mech, self.t, [&self.q, v], jacobian, mass);
-        let a = Rows {
-            rows,
-            ..self.terms.rows()
-        };
-        let factored = (self.dense).factor_as_needed(massless, mass, a, RANK_TOLERANCE);
-        factored.ok()
-    }
-
-    /// Stands at `near`, moved onto the constraints that count beyond doubt, and factors the equations there. A stage is off them, so is a
-    /// state between the ends of a step, and that lends a significance to rows that follow from the others. Rows that come to imply each
-    /// other are left out: nothing tells what these ask for. Of rates positions know nothing: rows that say the same of both contradict
-    /// each other where the one asks for no change and the others for what is off.
-    fn stand(&mut self, near: &State) -> Option<State> {
-        let State { t, q, mut v } = near.clone();
-        (self.t, self.q) = (t, q);
-        for level in [Level::Position, Level::Velocity] {
-            let mut last = f64::INFINITY;
-            for _ in 0..MOST {
-                let Some(change) = self.correction(level, &v) else {
-                    break;
-                };
-                let size = self.dense.measure.size(&change);
-                if size.is_nan() || size >= SHORTER * last {
-                    break;
-                }
-                last = size;
-                let x = match level {
-                    Level::Position => &mut self.q,
-                    Level::Velocity => &mut v,
-                };
-                axpy(-1.0, &change, x);
-            }
-        }
-        self.rank = self.mech.spec().m();
-        self.factor(&v)?;
-        Some(State {
-            t,
-            q: self.q.clone(),
-            v,
-        })
-    }
-
-    /// How far position or velocities are off the constraints of their level that count beyond doubt.
-    fn correction(&mut self, level: Level, v: &[f64]) -> Option<Vec<f64>> {
-        let (rows, residual) = match level {
-            Level::Position => (self.mech.spec().holonomic, self.position()),
-            Level::Velocity => (self.mech.spec().m(), self.rate(v)),
-        };
-        self.factor_first(rows, v)?;
-        let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
-        self.dense.set_rank(clear, &self.terms.mass).ok()?;
-        let mut change = vec![0.0; v.len()];
-        self.dense.least_norm(&residual[..rows], &mut change);
-        Some(change)
-    }
-
-    /// φ̇ and ψ.
-    fn rate(&self, v: &[f64]) -> Vec<f64> {
-        let mut rate = vec![0.0; self.mech.spec().m()];
-        self.mech.residual_rate(self.t, &self.q, v, &mut rate);
-        rate
+        let factored =
+            (self.dense).factor_as_needed(massless, mass, self.terms.rows(), RANK_TOLERANCE);
+        factored.ok()?;
+        let rank = self.rank.min(self.dense.cod.pivots().len());
+        self.dense.set_rank(rank, &self.terms.mass).ok()
     }
 
     /// φ, zero for constraints that have none.
@@ -361,8 +295,9 @@ impl<'a> Search<'a> {
 
     /// The part of `v` that the constraints that count allow.
     fn allowed(&mut self, v: &[f64]) -> Vec<f64> {
-        let (rate, mut change) = (self.rate(v), vec![0.0; v.len()]);
+        let (mut rate, mut change) = (vec![0.0; self.mech.spec().m()], vec![0.0; v.len()]);
         let mut v = v.to_vec();
+        (self.mech).residual_rate(self.t, &self.q, &v, &mut rate);
         self.dense.least_norm(&rate, &mut change);
         axpy(-1.0, &change, &mut v);
         v
@@ -441,11 +376,12 @@ impl<'a> Search<'a> {
         let k = self.directions.len();
         // f, its slopes and its second derivatives, for each of its components.
         let phi = self.position();
-        let mut rounding = vec![0.0; phi.len()];
+        let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
         (self.noise).go(self.mech, self.t, [&self.q, &u], |_| [0.0; 2]);
         self.noise.residual(&mut rounding);
+        self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
         let a = self.terms.rows();
-        let mut slopes = vec![self.rate(&u)];
+        let mut slopes = vec![rate];
         for w in &self.directions[1..] {
             slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());
         }
