@@ -9,10 +9,10 @@
 //! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
 //! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
 
-use super::independence::Independence;
-use super::leaves::{Compared, Leaves};
 use std::rc::Rc;
 
+use super::independence::Independence;
+use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::integrate::Method;
