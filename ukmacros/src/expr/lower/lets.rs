@@ -124,8 +124,9 @@ impl<'m> Lowering<'m> {
             (Ok(()), Some(Binding::Family(members)))
                 if !indices.is_empty() && !members.contains_key(&indices) =>
             {
-                let other = members.keys().any(|known| known.len() != indices.len());
-                other.then(|| {
+                let first = members.keys().next();
+                let other = first.filter(|first| first.len() != indices.len());
+                other.map(|_| {
                     format!("`{name}` is declared with different numbers of indices; rename one")
                 })
             }
