@@ -8,6 +8,7 @@ mod mechanisms;
 mod mill;
 mod sarrus;
 mod sleigh;
+mod wheels;
 
 use mechanisms::SpatialFourBar;
 use models::{DoubleScottRussell, Model};

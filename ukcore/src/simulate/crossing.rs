@@ -129,6 +129,7 @@ pub(super) fn between(
     t: f64,
     [near, behind]: [&State; 2],
     whole: bool,
+    rank: usize,
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     let mut weakest = |at: &State| {
@@ -136,7 +137,9 @@ pub(super) fn between(
         search.factor(&at.v)?;
         let cod = &search.dense.cod;
         let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
-        Some((*cod.pivots().last()?, mech.spec().constraint_names(lost)))
+        let counting = cod.pivots().len().min(rank);
+        let weakest = cod.pivots()[..counting].last()?;
+        Some((*weakest, mech.spec().constraint_names(lost)))
     };
     let ends = [weakest(near)?, weakest(behind)?];
     let (least, constraints) = ends.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -145,7 +148,7 @@ pub(super) fn between(
     }
     // Steps are too long yet to tell, or it cannot be told.
     let way = (behind.t - t).abs();
-    find(mech, near, None).or_else(|| {
+    find_of(mech, near, None, rank).or_else(|| {
         whole.then(|| Singular {
             t: behind.t,
             gap: if least < UNTOLD {

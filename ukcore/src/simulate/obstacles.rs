@@ -145,9 +145,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
                 None => otherwise.and_then(|other| vanishing(mech, *other, old)),
             };
         }
-        Loss::Rank { states, whole } => {
+        Loss::Rank {
+            states,
+            whole,
+            rank,
+        } => {
             let [near, behind] = &*states;
-            return crossing::between(mech, old.t, [near, behind], whole);
+            return crossing::between(mech, old.t, [near, behind], whole, rank);
         }
     };
     let Vanishing {

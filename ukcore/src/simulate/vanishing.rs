@@ -21,6 +21,7 @@ use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::pinv::Decomposition;
 use crate::scan::{dot, or_one};
+use crate::solver::RANK_CEILING;
 use crate::zero::locate;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
@@ -65,10 +66,12 @@ pub(super) enum Loss {
         ends: [f64; 2],
         otherwise: Option<Box<Loss>>,
     },
-    /// A combination of rows, between two states of the motion; whether all rows were looked at, or some that others have implied were not.
+    /// A combination of rows, between two states of the motion; whether all rows were looked at, or some that others have implied were not;
+    /// and how many count where none is lost.
     Rank {
         states: Box<[State; 2]>,
         whole: bool,
+        rank: usize,
     },
 }
 
@@ -376,8 +379,8 @@ impl RowWatch {
                 continue;
             }
             if to - from <= 0.5_f64.powi(HALVINGS) {
-                let (states, whole) = (Box::new([at(from), at(to)]), independence.whole);
-                return Some(Loss::Rank { states, whole });
+                least = (0.0, [from, to]);
+                break;
             }
             let middle = 0.5 * (from + to);
             between.take(mech, Sample::from(&at(middle)), self.measure.as_ref());
@@ -389,9 +392,11 @@ impl RowWatch {
             parts.push((middle, to, [c.clone(), b]));
             parts.push((from, middle, [a, c]));
         }
+        let whole = independence.whole;
         (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
             states: Box::new(least.1.map(at)),
-            whole: independence.whole,
+            whole,
+            rank: self.most(),
         })
     }
 
@@ -465,17 +470,30 @@ impl RowWatch {
 
     /// As many rows as counted where the run began.
     fn rank(&self) -> usize {
+        self.counting(&self.first, INDEPENDENT)
+    }
+
+    /// As many rows as count anywhere, by what the run has seen: where it began, in a singular position perhaps, and beyond doubt at both
+    /// ends of the step in hand.
+    fn most(&self) -> usize {
+        let ends = [&self.seen, &self.here];
+        let ranks = ends.map(|end| self.counting(&end.entries, RANK_CEILING));
+        ranks.into_iter().fold(self.rank(), usize::max)
+    }
+
+    /// How many rows of A have more than `floor` beside each other.
+    fn counting(&self, a: &[f64], floor: f64) -> usize {
         let m = self.sizes.len();
-        let n = self.first.len() / m;
+        let n = a.len() / m;
         let mut system = Decomposition::new(m, n);
         let rows = system.load(m).chunks_exact_mut(n).enumerate();
         for (c, row) in rows {
-            let entries = self.first.iter().skip(c).step_by(m);
+            let entries = a.iter().skip(c).step_by(m);
             let size = entries.clone().fold(0.0_f64, |most, x| most.max(x.abs()));
             let pairs = row.iter_mut().zip(entries);
             pairs.for_each(|(x, a)| *x = a / or_one(size));
         }
-        system.factor(&vec![1.0; n], &vec![1.0; m], INDEPENDENT);
+        system.factor(&vec![1.0; n], &vec![1.0; m], floor);
         system.pivots().len()
     }
 
