@@ -18,6 +18,7 @@ mod redundant;
 mod redundant_loop;
 mod rows_in_time;
 mod scales;
+mod slots;
 mod stability;
 mod stiff;
 mod switches;

@@ -149,6 +149,17 @@ pub enum Error {
         /// The coordinate with the largest acceleration beside the error allowed in its velocity, and this acceleration, if there is one.
         fastest: Option<(String, f64)>,
     },
+    /// Steps became so small that the time does not tell their ends apart: so late it is known no better.
+    #[error(
+        "steps of {step:.1e} are nothing beside the time, which is known to {rounding:.1e} so late; count it from a moment near the start, \
+         or loosen the tolerance"
+    )]
+    TooLate {
+        /// Step size.
+        step: f64,
+        /// Rounding of the time.
+        rounding: f64,
+    },
     /// The number of steps allowed was used up.
     #[error(
         "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take \

@@ -360,17 +360,24 @@ impl Manifold {
         }
         let newton = &mut self.newton;
         newton.evaluate(at, x);
+        newton.weigh(at, x);
         if still {
-            newton.weigh(at, x);
             newton.measure(at, x, &mut self.noise, None);
-            let acceptance = &newton.acceptance;
-            if acceptance.largest(change) > AMPLIFIED * acceptance.length(0..at.rows()) {
-                return;
-            }
         } else {
             newton.rounding(at, x, &mut self.noise, None);
         }
-        newton.acceptance.clear(&mut newton.residual[..at.rows()]);
+        let acceptance = &newton.acceptance;
+        let amplified = acceptance.largest(change) > AMPLIFIED * acceptance.length(0..at.rows());
+        if still && amplified {
+            return;
+        }
+        let residual = &mut newton.residual[..at.rows()];
+        newton.acceptance.clear(residual);
+        // Whatever rows in doubt have made of it.
+        if !amplified && residual.iter().all(|r| *r == 0.0) {
+            change.fill(0.0);
+            return;
+        }
         let mut factored = false;
         self.factors.cautious = true;
         if (self.factors.step(at, x, newton, &mut factored)).is_err() {

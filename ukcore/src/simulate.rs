@@ -257,8 +257,8 @@ impl Simulation {
     /// # Errors
     /// [`Error::InvalidSetting`] for settings outside of their range; [`Error::WrongLength`], [`Error::NonFinite`] or
     /// [`Error::OffConstraint`] for a bad start; on the way [`Error::At`] with time, state and cause: what the solver or
-    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in
-    /// the [`Failure`].
+    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooLate`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory
+    /// up to there is in the [`Failure`].
     pub fn until(self, t_end: f64) -> Result<Trajectory, Failure> {
         self.run(t_end, None)
     }

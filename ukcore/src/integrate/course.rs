@@ -138,7 +138,8 @@ impl Course {
     ///
     /// # Errors
     /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`]
-    /// where it stands still, or the step would be lost in rounding; [`Error::InvalidSetting`] where the end of the run is to blame.
+    /// where it stands still, or the step would be lost in rounding; [`Error::TooLate`] where that of a late start is to blame,
+    /// [`Error::InvalidSetting`] where the end of the run is.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
         let used_up = self.attempts >= self.settings.max_steps;
         if let Some(error) = self.pace.verdict(used_up, self.end.s - self.now.s) {
@@ -169,6 +170,10 @@ impl Course {
 
     fn no_step(&self) -> Error {
         let step = self.h.abs();
+        let [rounding, own] = [self.now.t, self.now.s].map(|t| f64::EPSILON * t.abs());
+        if step > 10.0 * own && step < rounding {
+            return Error::TooLate { step, rounding };
+        }
         let chosen = self.attempts == 0 && self.settings.first_step.is_none();
         if !(chosen && step > 0.0 && step < f64::EPSILON * self.end.s.abs()) {
             return Error::too_small(step);

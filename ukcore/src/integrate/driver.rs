@@ -154,6 +154,9 @@ impl<'p> Driver<'p> {
         let shown = self.shown.filter(|(t, _)| course.ahead(*t) > 0.0);
         let report = Report {
             outcome: outcome.unwrap_or_else(|error| {
+                let lost = matches!(error, Error::StepTooSmall { .. });
+                let obstacle = lost.then(|| self.passage.obstacle()).flatten();
+                let error = obstacle.unwrap_or(error);
                 let here = Sample::of(course.now.t, scheme.start());
                 let mut trouble = course.explain(error, here);
                 if let Some((t, y)) = shown

@@ -9,6 +9,8 @@
 use std::collections::BTreeSet;
 
 use crate::mechanism::Prepared;
+use crate::pinv::Decomposition;
+use crate::scan::or_one;
 
 /// Pivots of a factorisation below this share of their diagonals are of rows that the others imply.
 const IMPLIED: f64 = 1e-3;
@@ -204,6 +206,21 @@ impl Independence {
         })?;
         Some(least)
     }
+}
+
+/// How many of the `m` rows of A (column-major) have more than `floor` beside each other.
+pub(super) fn counting(a: &[f64], m: usize, floor: f64) -> usize {
+    let n = a.len() / m;
+    let mut system = Decomposition::new(m, n);
+    let rows = system.load(m).chunks_exact_mut(n).enumerate();
+    for (c, row) in rows {
+        let entries = a.iter().skip(c).step_by(m);
+        let size = entries.clone().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let pairs = row.iter_mut().zip(entries);
+        pairs.for_each(|(x, a)| *x = a / or_one(size));
+    }
+    system.factor(&vec![1.0; n], &vec![1.0; m], floor);
+    system.pivots().len()
 }
 
 /// Eliminates the column with this diagonal, which changes these places.

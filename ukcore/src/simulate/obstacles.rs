@@ -12,6 +12,7 @@ use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::Projector;
 use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
+use crate::noise::Noise;
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
 use crate::spec::SwitchSpec;
@@ -21,6 +22,9 @@ const SINGULAR: f64 = 1.5e-8;
 
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
+
+/// A residual of so many roundings of its terms, or less, is none.
+const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
@@ -95,10 +99,24 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     // What the time alone has made of it since the last step, which may have gone just onto the jump.
     let after = residual(t);
     let size = largest(&after);
+    let mut rounding = vec![0.0; after.len()];
+    let mut noise = Noise::new(&followed);
+    noise.go(
+        &followed,
+        t,
+        [if position { q } else { &near_q }, v],
+        |_| [0.0; 2],
+    );
+    match position {
+        true => noise.residual(&mut rounding),
+        false => noise.residual_rate(&mut rounding),
+    }
     let pairs = after.iter().zip(residual(2.0 * t_old - t));
-    let jumps = pairs.map(|(after, before)| {
+    let jumps = pairs.zip(rounding).map(|((after, before), rounding)| {
         let alone = (after - before).abs() > 0.5 * size;
-        if alone { *after } else { 0.0 }
+        // Late, or far off, the time makes that of it by its rounding.
+        let known = after.abs() > STALLED * rounding;
+        if alone && known { *after } else { 0.0 }
     });
     let jumps: Vec<f64> = jumps.collect();
     if jumps.iter().any(|r| *r != 0.0) {
@@ -132,7 +150,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             otherwise,
         } => {
             let met = |position: &Singular| {
-                position.gap == 0.0 && (position.t - from) * (to - position.t) > 0.0
+                position.gap >= 0.0 && (position.t - from) * (to - position.t) > 0.0
             };
             let found = crossing::counts(mech, &row)
                 .then(|| crossing::find(mech, &row.near, Some(&row)))

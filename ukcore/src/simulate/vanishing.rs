@@ -11,7 +11,7 @@
 
 use std::rc::Rc;
 
-use super::independence::Independence;
+use super::independence::{Independence, counting};
 use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
 use crate::dense::Rows;
@@ -19,8 +19,7 @@ use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
-use crate::pinv::Decomposition;
-use crate::scan::{dot, or_one};
+use crate::scan::dot;
 use crate::solver::RANK_CEILING;
 use crate::zero::locate;
 
@@ -58,8 +57,8 @@ const HALVINGS: i32 = 8;
 pub(super) enum Loss {
     /// A row by itself.
     Row(Vanishing),
-    /// The same between states within a step, which need not be those of the motion: of concern where branches cross. Else what its ends
-    /// tell.
+    /// The same between states within a step, which need not be those of the motion: of concern where branches cross, or nearly do. Else
+    /// what its ends tell.
     Within {
         row: Vanishing,
         /// The times of the ends.
@@ -393,7 +392,7 @@ impl RowWatch {
             parts.push((from, middle, [a, c]));
         }
         let whole = independence.whole;
-        (least.0 < DIP * first.max(last)).then(|| Loss::Rank {
+        (least.0 <= DIP * first.max(last)).then(|| Loss::Rank {
             states: Box::new(least.1.map(at)),
             whole,
             rank: self.most(),
@@ -470,31 +469,15 @@ impl RowWatch {
 
     /// As many rows as counted where the run began.
     fn rank(&self) -> usize {
-        self.counting(&self.first, INDEPENDENT)
+        counting(&self.first, self.sizes.len(), INDEPENDENT)
     }
 
     /// As many rows as count anywhere, by what the run has seen: where it began, in a singular position perhaps, and beyond doubt at both
     /// ends of the step in hand.
     fn most(&self) -> usize {
         let ends = [&self.seen, &self.here];
-        let ranks = ends.map(|end| self.counting(&end.entries, RANK_CEILING));
+        let ranks = ends.map(|end| counting(&end.entries, self.sizes.len(), RANK_CEILING));
         ranks.into_iter().fold(self.rank(), usize::max)
-    }
-
-    /// How many rows of A have more than `floor` beside each other.
-    fn counting(&self, a: &[f64], floor: f64) -> usize {
-        let m = self.sizes.len();
-        let n = a.len() / m;
-        let mut system = Decomposition::new(m, n);
-        let rows = system.load(m).chunks_exact_mut(n).enumerate();
-        for (c, row) in rows {
-            let entries = a.iter().skip(c).step_by(m);
-            let size = entries.clone().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let pairs = row.iter_mut().zip(entries);
-            pairs.for_each(|(x, a)| *x = a / or_one(size));
-        }
-        system.factor(&vec![1.0; n], &vec![1.0; m], floor);
-        system.pivots().len()
     }
 
     fn scale(&self) -> Vec<f64> {

@@ -339,6 +339,7 @@ fn kind(error: &Error) -> &'static str {
         Error::IndefiniteMass { .. } => "IndefiniteMass",
         Error::InvalidSetting { .. } => "InvalidSetting",
         Error::StepTooSmall { .. } => "StepTooSmall",
+        Error::TooLate { .. } => "TooLate",
         Error::TooManySteps { .. } => "TooManySteps",
         Error::Chattering { .. } => "Chattering",
         Error::NoDirection { .. } => "NoDirection",

@@ -100,6 +100,21 @@ pub(super) struct Passage {
 }
 
 impl Passage {
+    /// What the steps that have come to nothing fail for: the position beside which rounding makes more of velocities than any accuracy
+    /// that may be asked for.
+    pub(super) fn obstacle(&self) -> Option<Error> {
+        let position = self.ahead.as_ref()?;
+        let constraints = position.constraints.clone();
+        (self.noise(position) > COARSEST).then_some(Error::Singular { constraints })
+    }
+
+    /// What rounding makes of velocities in the step in hand, beside a position.
+    fn noise(&self, position: &Singular) -> f64 {
+        let significance = self.distance * position.rate;
+        let noise = if position.gap > 0.0 { TURNING } else { NOISE };
+        noise / (significance * significance)
+    }
+
     /// A step from this place and state is accepted.
     pub(super) fn keep(&mut self, now: Place, state: &[f64]) {
         let full = self.before.len() >= BACK;
@@ -115,11 +130,9 @@ impl Passage {
     pub(super) fn ease(&mut self, tolerance: &mut Tolerance, run: &Tolerance, v: &[f64]) -> bool {
         let mut eased = [run.relative, 1.0];
         if let Some(position) = &self.ahead {
-            let significance = self.distance * position.rate;
-            let noise = if position.gap > 0.0 { TURNING } else { NOISE };
             let least = match self.faint && self.passing {
                 true => COARSEST,
-                false => (noise / (significance * significance)).min(COARSEST),
+                false => self.noise(position).min(COARSEST),
             };
             let floors = &run.floors[v.len()..];
             let sizes = v.iter().zip(floors).map(|(v, floor)| v.abs() / floor);
