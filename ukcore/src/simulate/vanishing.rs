@@ -298,35 +298,32 @@ impl RowWatch {
             (part, Rc::new(matrix))
         };
         let looks = LOOKS.map(look);
-        // By which share of its greater length each row changes, and which one is reversed, if one is.
-        let changes = |[from, to]: &[&(f64, Rc<Matrix>); 2]| {
-            let both = leaves.changes([&from.1.entries, &to.1.entries]);
-            let rows = holonomic.iter().zip(both).enumerate();
+        // A part of the step: by which share of its greater length each row changes on it, and which one is reversed, if one is.
+        let part = |from: (f64, Rc<Matrix>), to: (f64, Rc<Matrix>)| {
+            let changes = leaves.changes([&from.1.entries, &to.1.entries]);
+            let rows = holonomic.iter().zip(changes).enumerate();
             let (mut shares, mut reversed) = (vec![0.0; holonomic.len()], None);
             for (c, (_, [change, product])) in rows.filter(|(_, (may, _))| **may) {
                 shares[c] = (change / from.1.squares[c].max(to.1.squares[c])).sqrt();
                 reversed = reversed.or((product < 0.0).then_some(c));
             }
-            (shares, reversed)
+            ([from, to], shares, reversed)
         };
-        let pairs = || looks.windows(2).map(|pair| [&pair[0], &pair[1]]);
-        let mut turns = vec![0.0; holonomic.len()];
-        for pair in pairs() {
-            let both = turns.iter_mut().zip(changes(&pair).0);
-            both.for_each(|(turns, change)| *turns += change);
-        }
-        self.turns = turns.into_iter().fold(0.0, f64::max);
         // What is left to look at, the first part last.
-        let mut parts: Vec<_> = pairs().rev().map(|pair| pair.map(Clone::clone)).collect();
-        while let Some([from, to]) = parts.pop() {
-            let (shares, reversed) = changes(&[&from, &to]);
+        let pairs = looks.windows(2).rev();
+        let mut parts: Vec<_> = pairs
+            .map(|pair| part(pair[0].clone(), pair[1].clone()))
+            .collect();
+        let turns = |c: usize| -> f64 { parts.iter().map(|(_, shares, _)| shares[c]).sum() };
+        self.turns = (0..holonomic.len()).map(turns).fold(0.0, f64::max);
+        while let Some(([from, to], shares, reversed)) = parts.pop() {
             if shares.iter().all(|share| *share <= CHANGE) {
                 continue;
             }
             if to.0 - from.0 > 0.5_f64.powi(HALVINGS) {
                 let between = look(0.5 * (from.0 + to.0));
-                parts.push([between.clone(), to]);
-                parts.push([from, between]);
+                parts.push(part(between.clone(), to));
+                parts.push(part(from, between));
                 continue;
             }
             let Some(row) = reversed else {
