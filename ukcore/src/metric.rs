@@ -168,12 +168,12 @@ impl Metric {
     }
 
     /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets, by `measure`, which makes coordinates of different
-    /// units comparable, the largest scale of the massive ones that it shares a row with, so that it neither hides them nor is hidden; or of
-    /// all, if it shares none. How large the entries of that row are does not matter: as one of them vanishes, the coordinate would become
+    /// units comparable, the largest scale of the massive ones in its rows, so that it neither hides them nor is hidden; or of all, if
+    /// there are none. How large the entries of that row are does not matter: as one of them vanishes, the coordinate would become
     /// heavier or lighter than all others without bound, and what is left of rows beside each other, which tells how near they are to
     /// implying each other, would be its entries alone. Rows a that are `regular` give coordinates the mass of M + μ aᵀa, which does not
-    /// vanish where their own does: what is next to nothing there, as beside the identity orientation, would have rounding of other rows for
-    /// large entries. The accelerations do not depend on these scales, only their rounding does, and what counts as singular.
+    /// vanish where their own does: what is next to nothing there, as beside the identity orientation, would have rounding of other rows
+    /// for large entries. The accelerations do not depend on these scales, only their rounding does, and what counts as singular.
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
