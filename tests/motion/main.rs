@@ -11,6 +11,7 @@ mod far;
 mod friction;
 mod integrals;
 mod kinks;
+mod massless;
 mod misses;
 mod orientations;
 mod passing;
