@@ -1,6 +1,7 @@
 //! Where a motion does not get through: branches of the constraints that meet, jumps, accelerations out of all proportion.
 
 use super::crossing;
+use super::standstill;
 use super::vanishing::{Loss, Vanishing};
 use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
@@ -336,11 +337,17 @@ pub(super) fn explain(
     if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
         trouble.error = limit;
     }
-    if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
+    if let Error::StepTooSmall { step, fastest } = &mut trouble.error {
+        let step = *step;
         let State { t, q, v } = &trouble.state;
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
+            let terms = standstill::terms(&mut solver, &trouble.state, &acceleration, step);
+            if !terms.is_empty() {
+                trouble.error = Error::Chattering { step, terms };
+                return trouble.state.locate(trouble.error);
+            }
             let n = q.len();
             let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
             let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
