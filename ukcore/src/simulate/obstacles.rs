@@ -15,7 +15,6 @@ use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
-use crate::spec::SwitchSpec;
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -355,12 +354,7 @@ pub(super) fn explain(
             *fastest = first.map(|i| (name(i), acceleration[i]));
         }
     }
-    if let (Error::NonFinite { .. }, terms) =
-        (&trouble.error, directions(mechanism, &trouble.state))
-        && !terms.is_empty()
-    {
-        trouble.error = Error::NoDirection { terms };
-    }
+    trouble.error = diagnose::undirected(mechanism, &trouble.state, trouble.error);
     if let Error::NonFinite { what } = &mut trouble.error
         && mechanism.spec().structure.loaded
         && let Some(last) = what.last_mut()
@@ -369,14 +363,4 @@ pub(super) fn explain(
         *last += &format!("; {cause}");
     }
     trouble.state.locate(trouble.error)
-}
-
-/// The terms that divide by a length which is zero at a state.
-fn directions(mechanism: &Prepared, State { t, q, v }: &State) -> Vec<String> {
-    let switches = mechanism.spec().switches;
-    let mut values = vec![0.0; switches.len()];
-    mechanism.switching(*t, q, v, &mut values);
-    let zero = switches.iter().zip(values);
-    let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
-    SwitchSpec::terms(zero.map(|(switch, _)| switch))
 }
