@@ -47,7 +47,8 @@ impl Linearisation {
         let mechanism = mechanism.into();
         let solver = Solver::new(&mechanism, SolverOptions::default());
         let found = Linearisation::of(solver, state);
-        found.map_err(|error| diagnose::undirected(&mechanism, state, error))
+        let State { t, q, v } = state;
+        found.map_err(|error| diagnose::undirected(&mechanism, (*t, q, v), error))
     }
 
     fn of(mut solver: Solver, state: &State) -> Result<Self, Error> {

@@ -354,7 +354,8 @@ pub(super) fn explain(
             *fastest = first.map(|i| (name(i), acceleration[i]));
         }
     }
-    trouble.error = diagnose::undirected(mechanism, &trouble.state, trouble.error);
+    let State { t, q, v } = &trouble.state;
+    trouble.error = diagnose::undirected(mechanism, (*t, q, v), trouble.error);
     if let Error::NonFinite { what } = &mut trouble.error
         && mechanism.spec().structure.loaded
         && let Some(last) = what.last_mut()
