@@ -1,5 +1,5 @@
-//! Whether a run ends where dry friction brings a body to rest: where that is far from the start, steps are lost in the rounding of the time
-//! before enough of them have gone to and fro to tell.
+//! Whether a run ends where dry friction brings a body to rest: where that is far from the start, steps are lost in the rounding of the
+//! time before enough of them have gone to and fro to tell.
 
 use crate::assemble::State;
 use crate::scan::largest;
