@@ -9,6 +9,7 @@ mod failures;
 mod fallback;
 mod far;
 mod friction;
+mod impacts;
 mod integrals;
 mod kinks;
 mod massless;
