@@ -188,6 +188,24 @@ fn a_puck_that_comes_to_rest_stays_there_and_the_force_is_named() {
     }
 }
 
+/// Where it stops late, at a tight tolerance, steps are lost in the rounding of the time before they have gone to and fro often.
+#[test]
+fn a_puck_that_stops_late_at_a_tight_tolerance_is_told_the_same() {
+    for (name, mechanism) in forms(0.0) {
+        for method in METHODS {
+            for (tolerance, v) in [(1e-11, 90.0), (1e-12, 400.0), (1e-13, 30.0), (1e-13, 900.0)] {
+                let label = format!("{name}, {method}, {tolerance:e}, {v}");
+                let run = run(&mechanism, [0.6, 0.8], 0.0, v).method(method);
+                let run = run.tolerance(tolerance).at(Vec::new());
+                let failure = run.until(2.0 * v / F).expect_err(&label);
+                let told = source(&failure.error);
+                let named = matches!(told, Error::Chattering { terms, .. } if terms.len() == 2);
+                assert!(named, "{label}: {told}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_puck_that_a_spring_pulls_on_goes_on_through_rest() {
     let (k, q, v) = (60.0, 1.0, 2.0);

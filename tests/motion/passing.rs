@@ -463,3 +463,40 @@ fn members_of_an_ensemble_pass_as_they_do_alone() {
         );
     }
 }
+
+ukcore::multibody! {
+    /// Two wheels whose pins stay at one height: one branch turns them alike, the other against each other.
+    Wheels {
+        params { j = 1.0 }
+        coords { th, ph }
+        mass { th: 1.0, ph: j }
+        holonomic { level: sin(th) = sin(ph) }
+    }
+}
+
+/// A sample nearer to a node than the error allowed may be in the other branch as far as its place tells, not with the velocities of that.
+#[test]
+fn samples_of_the_implicit_method_beside_nodes_keep_their_velocities() {
+    for (tolerance, dt) in [(1e-3, 0.1), (1e-4, 0.05)] {
+        for k in 0..240 {
+            let speed = 0.8 + 0.0417 * f64::from(k);
+            let start = State {
+                t: 0.0,
+                q: vec![0.5, std::f64::consts::PI - 0.5],
+                v: vec![speed, -speed],
+            };
+            let run = Simulation::new(Wheels::default()).start(start);
+            let run = run.method(Method::Radau5).tolerance(tolerance).every(dt);
+            let run = run.until(8.0).expect("it goes straight on");
+            for s in run.samples() {
+                let off = (s.v[0] - speed).abs().max((s.v[1] + speed).abs());
+                let what = format!("{tolerance:e}, {speed}, {}: {off:e}", s.t);
+                assert!(off < 0.01 * speed, "{what}");
+                assert!(
+                    (s.q[0] - 0.5 - speed * s.t).abs() < 30.0 * tolerance,
+                    "{what}"
+                );
+            }
+        }
+    }
+}

@@ -457,3 +457,34 @@ fn coinciding_frequencies_do_not_grow() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A block on a spring that rubs on a table, in the plane.
+    Rubbed {
+        params { m = 1.0, k = 4.0, mu = 0.3, g = 9.81 }
+        coords { x, y }
+        mass { x: m, y: m }
+        potential { 0.5 * k * sq([x, y]) }
+        nonideal { x: friction(dot([x, y]), mu * m * g)[0], y: friction(dot([x, y]), mu * m * g)[1] }
+    }
+}
+
+#[test]
+fn friction_without_a_direction_at_rest_is_told_with_what_helps() {
+    let still = rest(&[0.0; 2]);
+    let errors = [
+        modes(Rubbed::default(), &still).map(|_| ()),
+        ukcore::equilibrium(Rubbed::default(), &still, &[]).map(|_| ()),
+        ukcore::Linearisation::at(Rubbed::default(), &still).map(|_| ()),
+    ];
+    for told in errors {
+        let Err(error) = told else {
+            panic!("no force has a value there")
+        };
+        assert!(
+            matches!(&error, Error::NoDirection { terms } if terms.len() == 2),
+            "{error}"
+        );
+        assert!(error.to_string().contains("smooth the length"), "{error}");
+    }
+}

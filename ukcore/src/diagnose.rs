@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Matrix3};
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::scan::largest;
-use crate::spec::Spec;
+use crate::spec::{Spec, SwitchSpec};
 use crate::spectrum::symmetric;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
@@ -144,6 +144,24 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
         }
     }
     Error::NonFinite { what }
+}
+
+/// `error`, or that no direction is there, where it says that something is not finite at a state (t, q, q̇) where a term divides by a
+/// length which is zero.
+pub(crate) fn undirected(mech: &Prepared, (t, q, v): (f64, &[f64], &[f64]), error: Error) -> Error {
+    let switches = mech.spec().switches;
+    let mut values = vec![0.0; switches.len()];
+    if !matches!(error, Error::NonFinite { .. }) {
+        return error;
+    }
+    mech.switching(t, q, v, &mut values);
+    let zero = switches.iter().zip(values);
+    let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
+    let terms = SwitchSpec::terms(zero.map(|(switch, _)| switch));
+    match terms.is_empty() {
+        true => error,
+        false => Error::NoDirection { terms },
+    }
 }
 
 /// The coordinates in whose column M, and the constraints in whose row A (m × n) is not finite.

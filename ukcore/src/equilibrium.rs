@@ -9,6 +9,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search as Assembly, State, assembled, held};
+use crate::diagnose::undirected;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
@@ -224,7 +225,9 @@ impl Search {
             return Err(Error::invalid("guess", reason));
         }
         state.v.fill(0.0);
-        let solved = self.solver.solve(state.t, &state.q, &state.v)?;
+        let at = (state.t, &state.q[..], &state.v[..]);
+        let solved = self.solver.solve(at.0, at.1, at.2);
+        let solved = solved.map_err(|error| undirected(&self.mech, at, error))?;
         let mass = mass_matrix(&self.mech, &state);
         let units = units(&self.mech, &state);
         let mut assembly = Assembly::new(&self.mech, &state, &self.held);

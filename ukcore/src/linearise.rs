@@ -13,6 +13,7 @@
 //! directions along the manifold.
 
 use crate::assemble::State;
+use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
@@ -41,9 +42,13 @@ impl Linearisation {
     ///
     /// # Errors
     /// What [`Solver::acceleration`] reports; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at
-    /// 0.
+    /// 0; [`Error::NoDirection`] where that is v/|v| at rest.
     pub fn at(mechanism: impl Into<Prepared>, state: &State) -> Result<Self, Error> {
-        Linearisation::of(Solver::new(mechanism, SolverOptions::default()), state)
+        let mechanism = mechanism.into();
+        let solver = Solver::new(&mechanism, SolverOptions::default());
+        let found = Linearisation::of(solver, state);
+        let State { t, q, v } = state;
+        found.map_err(|error| diagnose::undirected(&mechanism, (*t, q, v), error))
     }
 
     fn of(mut solver: Solver, state: &State) -> Result<Self, Error> {

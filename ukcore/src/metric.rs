@@ -167,12 +167,13 @@ impl Metric {
         }
     }
 
-    /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets the scale at which its entries of A do not
-    /// exceed those of the massive coordinates in any row that has both, so that it neither hides them nor is hidden. Rows a that are
-    /// `regular` give coordinates the mass of M + μ aᵀa, which does not vanish where their own does: what is next to nothing there, as
-    /// beside the identity orientation, would have rounding of other rows for large entries. Coordinates of different units are comparable
-    /// by `measure`, which also gives a scale to coordinates that share no row with a massive one. The accelerations do not depend on these
-    /// scales, only their rounding does.
+    /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets, by `measure`, which makes coordinates of different
+    /// units comparable, the largest scale of the massive ones in its rows, so that it neither hides them nor is hidden; or of all, if
+    /// there are none. How large the entries of that row are does not matter: as one of them vanishes, the coordinate would become
+    /// heavier or lighter than all others without bound, and what is left of rows beside each other, which tells how near they are to
+    /// implying each other, would be its entries alone. Rows a that are `regular` give coordinates the mass of M + μ aᵀa, which does not
+    /// vanish where their own does: what is next to nothing there, as beside the identity orientation, would have rounding of other rows
+    /// for large entries. The accelerations do not depend on these scales, only their rounding does, and what counts as singular.
     pub(crate) fn scale(
         &mut self,
         mass: &[f64],
@@ -198,21 +199,16 @@ impl Metric {
                 pairs.for_each(|(own, a)| *own = own.hypot(root * (a / length)));
             }
         }
+        let massive = |i: &usize| mass[i * n + i] > 0.0;
         for j in 0..n {
             if self.root[j] > 0.0 {
                 continue;
             }
-            let mut root = 0.0_f64;
-            for c in 0..a.rows {
-                let entry = a.jacobian[j * a.stride + c].abs();
-                let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
-                let shares = massive.map(|i| (a.jacobian[i * a.stride + c] / self.root[i]).abs());
-                let massive = shares.fold(0.0_f64, f64::max);
-                if massive > 0.0 {
-                    root = root.max(entry / massive);
-                }
-            }
-            self.root[j] = root;
+            let entry = |c: usize, i: usize| a.jacobian[i * a.stride + c];
+            let rows = (0..a.rows).filter(|&c| entry(c, j) != 0.0);
+            let beside = rows.flat_map(|c| (0..n).filter(move |&i| entry(c, i) != 0.0));
+            let sizes = beside.filter(massive).map(|i| self.root[i] * measure[i]);
+            self.root[j] = sizes.fold(0.0, f64::max) / measure[j];
         }
         let units = || self.root.iter().zip(measure);
         let largest = units().fold(0.0_f64, |most, (root, unit)| most.max(root * unit));

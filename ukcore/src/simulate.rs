@@ -28,6 +28,7 @@ mod leaves;
 mod obstacles;
 mod record;
 mod run;
+mod standstill;
 mod start;
 #[cfg(test)]
 mod tests;

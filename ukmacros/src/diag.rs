@@ -176,7 +176,7 @@ fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
     .collect()
 }
 
-/// The end of an error message about `name`: the nearest of `names`, if at most half of it differs, case ignored;
+/// The end of an error message about `name`: the nearest of `names`, if less than half of it differs, or one letter of two, case ignored;
 /// else the `remedy`.
 pub(crate) fn suggest<'a>(
     name: &str,
@@ -201,7 +201,7 @@ fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&
         2.. if sorted(name) == sorted(n) => 1,
         distance => distance,
     };
-    let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
     let (d, n) = names.into_iter().map(|n| (distance(n), n)).min()?;
-    (d <= most(n)).then_some(n)
+    let length = n.chars().count().max(name.chars().count());
+    (2 * d < length || d == 1 && length == 2).then_some(n)
 }

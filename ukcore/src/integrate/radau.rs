@@ -21,6 +21,7 @@ pub(super) mod newton;
 use super::Tolerance;
 use super::control::{SAFETY, StepSize, first_size};
 use super::course::Trial;
+use super::sample::Sample;
 use super::scheme::{Equations, Scheme};
 use super::stepper::Rates;
 use super::sums::{sized, sum_of_squares, weights};
@@ -47,6 +48,9 @@ const FAST: f64 = 1e-3;
 
 /// Errors count as at least this much where the next step looks back on them.
 const SMALLEST_PREVIOUS: f64 = 1e-2;
+
+/// A step that would damp away velocities with more than this share of the kinetic energy is to be as short as they ask for.
+const MUCH: f64 = 1e-4;
 
 /// Relative tolerance of the estimate, which is of order 3, for a step of order 5 to have that of the run: 0.1 run^⅔, as in RADAU5.
 fn estimate_tolerance(run: f64) -> f64 {
@@ -107,6 +111,8 @@ pub(super) struct Radau {
     turning: Turning,
     /// What Newton's method, where it failed, takes the step times.
     shorten: f64,
+    /// The largest kinetic energy of a step's start so far.
+    liveliest: f64,
 }
 
 impl Radau {
@@ -131,6 +137,7 @@ impl Radau {
             h_previous: None,
             turning: Turning::default(),
             shorten: 0.5,
+            liveliest: 0.0,
         }
     }
 
@@ -176,7 +183,8 @@ impl Radau {
         self.newton
             .filter(step.h, &ERROR, &self.rate, &mut self.error);
         let error = norm(&self.error, &self.weights);
-        if error < 1.0 || !(self.size.rejected || self.size.last.is_none()) {
+        let again = self.size.rejected || self.size.last.is_none();
+        if error < 1.0 || !again || self.takes_out(equations, step) {
             return error;
         }
         for (x, y) in self.error.iter_mut().zip(&self.start) {
@@ -189,6 +197,18 @@ impl Radau {
         self.newton
             .filter(step.h, &ERROR, &self.end_rate, &mut self.error);
         norm(&self.error, &self.weights)
+    }
+
+    /// Whether velocities that stiff forces take back within the step hold much of the kinetic energy: those of a body that strikes a hard
+    /// spring do, and the step would damp its impact away.
+    fn takes_out(&self, equations: &mut Equations<'_>, step: Trial) -> bool {
+        let start = equations.at(step.start.s, &self.start);
+        let end = equations.at(step.end.s, &self.end);
+        let v = &self.error[self.n..];
+        let lost = Sample { v, ..start };
+        let all = [start, end, lost].map(|at| equations.problem.kinetic(at));
+        let [has, gets, lost] = all;
+        lost > MUCH * self.liveliest.max(has).max(gets)
     }
 
     /// What the size `h` is to be divided by to meet the tolerance: less of it is risked where Newton's method took long.
@@ -261,6 +281,8 @@ impl Scheme for Radau {
 
     fn close(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {
         equations.rate(step.end.s, &self.end, &mut self.end_rate)?;
+        let kinetic = (equations.problem).kinetic(equations.at(step.start.s, &self.start));
+        self.liveliest = self.liveliest.max(kinetic);
         // The polynomial through start and stages; the end is the projected one.
         let n = self.n;
         let (c0, rest) = self.dense.split_at_mut(2 * n);

@@ -139,6 +139,27 @@ impl Leaves {
         self.compare([a; 3], 0.0, squares, &mut vec![0.0; self.rows.len()]);
     }
 
+    /// By how much each row changes from one state to another, squared, and the product of what it is at both, for A at these.
+    pub(super) fn changes(&self, a: [&[f64]; 2]) -> Vec<[f64; 2]> {
+        let mut changes = vec![[0.0; 2]; self.rows.len()];
+        self.each([a[0], a[0], a[1]], 0.0, |row, _, all| {
+            changes[row.row] = [all.change, all.product];
+        });
+        changes
+    }
+
+    /// Calls `f` with each row, and sums over the entries of its own and over all of them, for A at three states.
+    #[inline]
+    fn each(&self, a: [&[f64]; 3], ratio: f64, mut f: impl FnMut(&Row, Sums, Sums)) {
+        let mut begin = 0;
+        for row in &self.rows {
+            let (mine, rest) = self.places[begin..row.end].split_at(row.own);
+            begin = row.end;
+            let own = Sums::default().add(mine, a, ratio);
+            f(row, own, own.add(rest, a, ratio));
+        }
+    }
+
     /// Squares of the lengths of rows at the last of three states, and their products with those before, for A at these. The time between
     /// the last two is `ratio` times that between the first two.
     pub(super) fn compare(
@@ -154,19 +175,14 @@ impl Leaves {
             kept: true,
             ..Compared::default()
         };
-        let mut begin = 0;
-        for Row { row, own, end } in &self.rows {
-            let (mine, rest) = self.places[begin..*end].split_at(*own);
-            begin = *end;
-            let own = Sums::default().add(mine, a, ratio);
-            let all = own.add(rest, a, ratio);
-            (squares[*row], products[*row]) = (all.square, all.product);
+        self.each(a, ratio, |row, own, all| {
+            (squares[row.row], products[row.row]) = (all.square, all.product);
             all.share(&mut compared.rows);
-            if !mine.is_empty() {
+            if row.own > 0 {
                 own.share(&mut compared.own);
                 compared.kept &= own.product > 0.0;
             }
-        }
+        });
         // In the middle of the time between the first two it was as fast as it went there on an average; at rest, where nothing came
         // before.
         let half = match ratio {

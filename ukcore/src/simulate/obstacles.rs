@@ -1,6 +1,7 @@
 //! Where a motion does not get through: branches of the constraints that meet, jumps, accelerations out of all proportion.
 
 use super::crossing;
+use super::standstill;
 use super::vanishing::{Loss, Vanishing};
 use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
@@ -15,7 +16,6 @@ use crate::mechanism::{Branch, Prepared};
 use crate::noise::Noise;
 use crate::scan::largest;
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
-use crate::spec::SwitchSpec;
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -358,11 +358,17 @@ pub(super) fn explain(
     if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
         trouble.error = limit;
     }
-    if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
+    if let Error::StepTooSmall { step, fastest } = &mut trouble.error {
+        let step = *step;
         let State { t, q, v } = &trouble.state;
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
+            let terms = standstill::terms(&mut solver, &trouble.state, &acceleration, step);
+            if !terms.is_empty() {
+                trouble.error = Error::Chattering { step, terms };
+                return trouble.state.locate(trouble.error);
+            }
             let n = q.len();
             let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
             let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
@@ -370,12 +376,8 @@ pub(super) fn explain(
             *fastest = first.map(|i| (name(i), acceleration[i]));
         }
     }
-    if let (Error::NonFinite { .. }, terms) =
-        (&trouble.error, directions(mechanism, &trouble.state))
-        && !terms.is_empty()
-    {
-        trouble.error = Error::NoDirection { terms };
-    }
+    let State { t, q, v } = &trouble.state;
+    trouble.error = diagnose::undirected(mechanism, (*t, q, v), trouble.error);
     if let Error::NonFinite { what } = &mut trouble.error
         && mechanism.spec().structure.loaded
         && let Some(last) = what.last_mut()
@@ -384,14 +386,4 @@ pub(super) fn explain(
         *last += &format!("; {cause}");
     }
     trouble.state.locate(trouble.error)
-}
-
-/// The terms that divide by a length which is zero at a state.
-fn directions(mechanism: &Prepared, State { t, q, v }: &State) -> Vec<String> {
-    let switches = mechanism.spec().switches;
-    let mut values = vec![0.0; switches.len()];
-    mechanism.switching(*t, q, v, &mut values);
-    let zero = switches.iter().zip(values);
-    let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
-    SwitchSpec::terms(zero.map(|(switch, _)| switch))
 }

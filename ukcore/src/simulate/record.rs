@@ -10,6 +10,7 @@ use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
 use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
+use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -207,6 +208,16 @@ impl<'s> Recorder<'s> {
     }
 }
 
+/// A change of velocities by more than this share of the largest is no correction.
+const ANOTHER: f64 = 0.25;
+
+/// Whether these velocities, of a motion with velocities of this `size`, are not `v` but for a correction.
+fn is_another(v: &[f64], other: &[f64], size: f64) -> bool {
+    let pairs = v.iter().zip(other);
+    let change = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    change > ANOTHER * size.max(largest(v))
+}
+
 /// The integrals at `t`.
 fn sums<'a>(
     integrals: &'a mut Option<Integrals>,
@@ -268,7 +279,15 @@ impl States for Within<'_, '_> {
         let n = self.step.new.q.len();
         let (q, v) = y.split_at_mut(n);
         if self.step.nearby {
-            return self.projector.settle(t, q, v);
+            let between = [q.to_vec(), v.to_vec()];
+            self.projector.settle(t, q, v)?;
+            // The error of an interpolant may have it in another branch, whose velocities are others.
+            let ends = [self.step.old.v, self.step.new.v].map(largest);
+            if is_another(&between[1], v, ends[0].max(ends[1])) {
+                q.copy_from_slice(&between[0]);
+                v.copy_from_slice(&between[1]);
+            }
+            return Ok(());
         }
         let Within {
             projector,

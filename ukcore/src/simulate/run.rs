@@ -120,6 +120,10 @@ impl Problem for Run<'_> {
         columns.fill(solver, (at.t, at.q, at.v), acceleration, out)
     }
 
+    fn kinetic(&mut self, at: Sample<'_>) -> f64 {
+        self.solver.mechanism().energy(at.t, at.q, at.v).kinetic
+    }
+
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
         if !self.recorder.trajectory.projected {
             return Ok(());

@@ -188,18 +188,6 @@ impl Matrix {
         self.squares[c].sqrt()
     }
 
-    /// By which share of its greater length a row differs from that of `other`.
-    fn change(&self, other: &Matrix, c: usize) -> f64 {
-        let pairs = self.row(c).zip(other.row(c));
-        let change = pairs.map(|(a, b)| (b - a).powi(2)).sum::<f64>().sqrt();
-        change / self.length(c).max(other.length(c))
-    }
-
-    /// The product of a row and that of `other`.
-    fn product(&self, other: &Matrix, c: usize) -> f64 {
-        self.row(c).zip(other.row(c)).map(|(a, b)| a * b).sum()
-    }
-
     fn row(&self, c: usize) -> impl Iterator<Item = f64> {
         let entries = self.entries.iter().skip(c);
         entries.step_by(self.squares.len()).copied()
@@ -300,12 +288,8 @@ impl RowWatch {
 
     /// The first row that is reversed between states within the step from `old` to `new`, even if it is as it was at its end.
     fn within(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
-        let holonomic = self.may.iter().take(mech.spec().holonomic);
-        let may: Vec<usize> = holonomic
-            .enumerate()
-            .filter_map(|(c, may)| may.then_some(c))
-            .collect();
-        if may.is_empty() {
+        let holonomic = &self.may[..mech.spec().holonomic];
+        if !holonomic.contains(&true) {
             return None;
         }
         let (measure, leaves) = (self.measure.as_ref(), &self.leaves);
@@ -316,28 +300,35 @@ impl RowWatch {
             (part, Rc::new(matrix))
         };
         let looks = LOOKS.map(look);
-        let changes = |c: &usize| -> f64 {
-            let pairs = looks.windows(2);
-            pairs.map(|pair| pair[0].1.change(&pair[1].1, *c)).sum()
+        // A part of the step: by which share of its greater length each row changes on it, and which one is reversed, if one is.
+        let part = |from: (f64, Rc<Matrix>), to: (f64, Rc<Matrix>)| {
+            let changes = leaves.changes([&from.1.entries, &to.1.entries]);
+            let rows = holonomic.iter().zip(changes).enumerate();
+            let (mut shares, mut reversed) = (vec![0.0; holonomic.len()], None);
+            for (c, (_, [change, product])) in rows.filter(|(_, (may, _))| **may) {
+                shares[c] = (change / from.1.squares[c].max(to.1.squares[c])).sqrt();
+                reversed = reversed.or((product < 0.0).then_some(c));
+            }
+            ([from, to], shares, reversed)
         };
-        self.turns = may.iter().map(changes).fold(0.0, f64::max);
         // What is left to look at, the first part last.
-        let parts = looks.windows(2).rev();
-        let mut parts: Vec<_> = parts
-            .map(|pair| [pair[0].clone(), pair[1].clone()])
+        let pairs = looks.windows(2).rev();
+        let mut parts: Vec<_> = pairs
+            .map(|pair| part(pair[0].clone(), pair[1].clone()))
             .collect();
-        while let Some([from, to]) = parts.pop() {
-            if may.iter().all(|c| from.1.change(&to.1, *c) <= CHANGE) {
+        let turns = |c: usize| -> f64 { parts.iter().map(|(_, shares, _)| shares[c]).sum() };
+        self.turns = (0..holonomic.len()).map(turns).fold(0.0, f64::max);
+        while let Some(([from, to], shares, reversed)) = parts.pop() {
+            if shares.iter().all(|share| *share <= CHANGE) {
                 continue;
             }
             if to.0 - from.0 > 0.5_f64.powi(HALVINGS) {
                 let between = look(0.5 * (from.0 + to.0));
-                parts.push([between.clone(), to]);
-                parts.push([from, between]);
+                parts.push(part(between.clone(), to));
+                parts.push(part(from, between));
                 continue;
             }
-            let reversed = |c: &&usize| from.1.product(&to.1, **c) < 0.0;
-            let Some(row) = may.iter().find(reversed).copied() else {
+            let Some(row) = reversed else {
                 continue;
             };
             let [first, .., last] = &looks;

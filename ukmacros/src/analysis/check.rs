@@ -6,7 +6,7 @@ use crate::diag::{Diagnostics, is_same};
 use crate::expr::{Id, Kind, System};
 use crate::model::Model;
 use proc_macro2::Span;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Reports what makes the motion undetermined or a constraint meaningless.
 pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
@@ -21,6 +21,7 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     let g = &system.graph;
     let mut seen: HashMap<(Kind, Id), usize> = HashMap::new();
     let mut same: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut joints: HashSet<String> = HashSet::new();
     for (row, constraint) in system.constraints.iter().enumerate() {
         let name = constraint.item.text();
         let uses = g.uses(constraint.phi);
@@ -34,6 +35,16 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
             Kind::Holonomic if !uses.coord => Some(format!(
                 "constraint `{name}` contains no coordinate, so it constrains nothing"
             )),
+            Kind::Nonholonomic if !uses.velocity && constraint.item.row.is_some() => {
+                let joint = constraint.item.whole();
+                let message =
+                    format!("`{joint}` is a joint, which stands under `holonomic`; move it there");
+                // Once for all of its rows.
+                if !joints.insert(joint) {
+                    continue;
+                }
+                Some(message)
+            }
             Kind::Nonholonomic if !uses.velocity => Some(format!(
                 "constraint `{name}` contains no velocity; move it under `holonomic`"
             )),

@@ -6,14 +6,12 @@
 //! Where folding would leave the range of `f64` or of exponents, or make one product of very many factors, a part stays whole
 //! ([`Node::Held`]).
 
+use super::collected::Collected;
 use super::functions::{Func, Symmetry};
 use super::graph::{Graph, Id, Map, Node, Num, Symbol};
 
 /// Products of more factors stay whole inside of other products. Opened, a chain of products of products would lose what it shares.
 const MAX_OPENED: usize = 16;
-
-/// Larger exponents are not composed: far from overflow, whatever derivatives do to them.
-const MAX_EXPONENT: i32 = 1 << 20;
 
 /// c · k, unless rounding loses it: under- or overflow where neither factor is at fault.
 fn times(c: f64, k: f64) -> Option<f64> {
@@ -540,63 +538,5 @@ impl Graph {
             return then;
         }
         self.intern(Node::Select([a, b, then, otherwise]))
-    }
-}
-
-/// Terms with their coefficients, or factors with their exponents: each once, in the order of their coming.
-#[derive(Default)]
-struct Collected<T> {
-    list: Vec<(Id, T)>,
-    /// Their places; nothing as long as they are few.
-    place: Map<Id, usize>,
-}
-
-/// So many are looked through faster than a map finds one of them.
-const FEW: usize = 16;
-
-impl<T> Collected<T> {
-    fn get_mut(&mut self, id: Id) -> Option<&mut T> {
-        let at = self.find(id)?;
-        Some(&mut self.list[at].1)
-    }
-
-    fn find(&self, id: Id) -> Option<usize> {
-        match self.list.len() {
-            0..=FEW => self.list.iter().position(|(known, _)| *known == id),
-            _ => self.place.get(&id).copied(),
-        }
-    }
-
-    /// Adds what is not there.
-    fn push(&mut self, id: Id, value: T) {
-        self.list.push((id, value));
-        let new = match self.list.len() {
-            0..=FEW => return,
-            len if len == FEW + 1 => 0,
-            len => len - 1,
-        };
-        let new = self.list.iter().enumerate().skip(new);
-        self.place.extend(new.map(|(at, (id, _))| (*id, at)));
-    }
-}
-
-impl Collected<i32> {
-    /// Whether base^e can be entered.
-    fn takes(&self, base: Id, e: i32) -> bool {
-        let known = self.find(base).map_or(0, |at| self.list[at].1);
-        let sum = known.checked_add(e);
-        sum.is_some_and(|sum| (-MAX_EXPONENT..=MAX_EXPONENT).contains(&sum))
-    }
-
-    /// Enters base^e, or returns false if the exponent leaves its bounds.
-    fn enter(&mut self, base: Id, e: i32) -> bool {
-        let fits = self.takes(base, e);
-        if fits {
-            match self.get_mut(base) {
-                Some(known) => *known += e,
-                None => self.push(base, e),
-            }
-        }
-        fits
     }
 }

@@ -1,5 +1,6 @@
 //! The expression graph: one node per distinct value, exact simplification, derivatives.
 
+mod collected;
 mod diff;
 mod display;
 mod eval;

@@ -164,8 +164,13 @@ fn section(input: ParseStream<'_>, out: &mut Declaration, diag: &Diagnostics) ->
         "integral" => blocks(input, &mut out.integrals, diag, output_entry),
         "draw" => blocks(input, &mut out.drawing, diag, shape),
         _ => {
-            let remedy = format!("sections are {}", sections());
-            let near = suggest(&name, SECTIONS.split(' '), &remedy);
+            let near = match name.starts_with("constrain") {
+                true => "; constraints stand under `holonomic`, those with velocities under `nonholonomic`".to_owned(),
+                false => {
+                    let remedy = format!("sections are {}", sections());
+                    suggest(&name, SECTIONS.split(' '), &remedy)
+                }
+            };
             diag.damage(place, format!("unknown section `{name}`{near}"));
             skip(input);
             Ok(())

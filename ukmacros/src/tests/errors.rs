@@ -246,10 +246,12 @@ cases! {
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
+    unknown_section_for_constraints: "coords { x } mass { x: 1.0 } «constraint» { c: x = 1.0 }" => "unknown section `constraint`; constraints stand under `holonomic`, those with velocities under `nonholonomic`";
     friction_the_other_way_round: "coords { x } mass { x: 1.0 } nonideal { x: «friction(2.0, dot(x))» }" => "`friction` takes a velocity, made with `dot` or of a body, and a number";
     reaction_of_a_joint_of_the_tree: "bodies { planar a { mass: 1.0, inertia: 1.0 } } tree { p: pin(ground.at([0, 0]), a.at([1, 0])) } output { f = reaction(«p») }" => "`p` stands under `tree`";
     unknown_shape: "coords { x } mass { x: 1.0 } draw { «lien»([x, 0], [0, 0]) }" => "unknown shape `lien`; did you mean `line`?";
     shape_far_from_all: "coords { x } mass { x: 1.0 } draw { «flower»([x, 0]) }" => "unknown shape `flower`; shapes are `line(p, q)`, `polyline(p, q, …)`";
+    shape_like_none: "coords { x } mass { x: 1.0 } draw { «rect»([x, 0], [1, 1]) }" => "unknown shape `rect`; shapes are `line(p, q)`";
     shape_without_points: "coords { x } mass { x: 1.0 } draw { «line» }" => "a shape is written with its points: `line(p, q)`";
     shape_with_too_few_points: "coords { x } mass { x: 1.0 } draw { «line»([x, 0]) }" => "shapes are written `line(p, q)`, ";
     text_without_words: "coords { x } mass { x: 1.0 } draw { «text»([x, 0]) }" => "shapes are written `line(p, q)`, ";
@@ -410,6 +412,7 @@ cases! {
     negative_mass: "coords { x } mass { «x»: -1.0 }" => "a mass must not be negative";
     diagonal_as_a_pair: "coords { x } mass { (x, «x»): 1.0 }" => "a diagonal entry of M is written `x: …`";
     constraint_without_coordinate: "params { l = 1.0 } coords { x } mass { x: 1.0 } holonomic { «c»: sq(l) = sin(t) }" => "constraint `c` contains no coordinate";
+    joint_under_nonholonomic: "bodies { spatial b { mass: 1.0, inertia: [1, 1, 1] } } nonholonomic { «h»: hinge(ground.at([0, 0, 0]), b.at([0, 0, 1]), [0, 1, 0]) }" => "`h` is a joint, which stands under `holonomic`; move it there";
     constraint_without_velocity: "coords { x } mass { x: 1.0 } nonholonomic { «c»: x = 1.0 }" => "contains no velocity; move it under `holonomic`";
     constraint_always_true: "coords { x } mass { x: 1.0 } holonomic { «c»: 2.0 * x = x + x }" => "constraint `c` is always true";
     same_constraint_twice: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { a: x - y = 0.0  «b»: y = x }" => "constraint `b` is the same equation as `a`";

@@ -124,9 +124,10 @@ impl<'m> Lowering<'m> {
             (Ok(()), Some(Binding::Family(members)))
                 if !indices.is_empty() && !members.contains_key(&indices) =>
             {
+                // All members have as many indices as the first.
                 let first = members.keys().next();
-                let other = first.filter(|first| first.len() != indices.len());
-                other.map(|_| {
+                let other = first.is_some_and(|first| first.len() != indices.len());
+                other.then(|| {
                     format!("`{name}` is declared with different numbers of indices; rename one")
                 })
             }

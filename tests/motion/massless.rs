@@ -1,0 +1,141 @@
+//! Four-bars with equal opposite sides some of whose parts have no mass, over the change points where crossed and parallel motion meet:
+//! what has no mass makes no difference to which branch a motion is in.
+
+use std::f64::consts::PI;
+
+use ukcore::simulate::Sample;
+use ukcore::{Mechanism, Method, Prepared, Simulation, State};
+
+ukcore::multibody! {
+    /// By bodies; the coupler without mass or inertia, the rocker without inertia if j = 0.
+    Bodies {
+        params { a = 2.0, b = 1.0, c = 2.0, j = 1.0 }
+        bodies { planar crank { mass: 0, inertia: 1 } planar rocker { mass: 0, inertia: j } planar coupler { mass: 0 } }
+        holonomic {
+            o: pin(ground.at([0, 0]), crank.at([0, 0]))
+            e: pin(ground.at([a, 0]), rocker.at([0, 0]))
+            p: pin(crank.at([b, 0]), coupler.at([0, 0]))
+            q: pin(coupler.at([c, 0]), rocker.at([b, 0]))
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// By points: the ends of crank and rocker, and a point of the coupler, without mass, that two rods hold beside it.
+    Points {
+        params { a = 2.0, b = 1.0, l = 1.5 }
+        coords { p[2], q[2], w[2] }
+        mass { p: 1.0, q: 1.0 }
+        holonomic {
+            crank: sq(p) = sq(b)
+            rocker: sq(q - [a, 0]) = sq(b)
+            coupler: sq(q - p) = sq(a)
+            near: sq(w - p) = sq(l)
+            far: sq(w - q) = sq(l)
+        }
+    }
+}
+
+/// Angles of coupler and rocker of a crossed chain with the rods a, b, a, b, and how fast they turn with the crank at 1.
+fn crossed(th: f64, a: f64, b: f64) -> [[f64; 2]; 2] {
+    let p = [b * th.cos(), b * th.sin()];
+    // The mirror image of p + [a, 0] about the line from the crank's end to the rocker's pivot.
+    let u = [a - p[0], -p[1]];
+    let k = 2.0 * a * u[0] / (u[0] * u[0] + u[1] * u[1]);
+    let q = [p[0] + k * u[0] - a, p[1] + k * u[1]];
+    let (ps, ph) = ((q[1] - p[1]).atan2(q[0] - p[0]), q[1].atan2(q[0] - a));
+    // b (sin(th − ps)) = b ph' sin(ph − ps), across the coupler; c ps' likewise across the rocker.
+    let rocker = (th - ps).sin() / (ph - ps).sin();
+    let coupler = b * (ph - th).sin() / (a * (ps - ph).sin());
+    [[ps, ph], [coupler, rocker]]
+}
+
+/// A chain with its start at the angle `th` of its crank and the rate `w`.
+fn chain(kind: usize, [a, b]: [f64; 2], th: f64, w: f64) -> (Prepared, State) {
+    let [[ps, ph], [coupler, rocker]] = crossed(th, a, b);
+    let along = |angle: f64, length: f64| [length * angle.cos(), length * angle.sin()];
+    let turned = |[x, y]: [f64; 2], rate: f64| [-rate * w * y, rate * w * x];
+    let sum = |[x, y]: [f64; 2], [u, v]: [f64; 2]| [x + u, y + v];
+    let (crank, arm) = (along(th, b), along(ph, b));
+    let (p, vp) = (crank, turned(crank, 1.0));
+    let start = |q: Vec<f64>, v: Vec<f64>| State { t: 0.0, q, v };
+    if kind < 2 {
+        let q = [[0.0, 0.0, th], [a, 0.0, ph], [p[0], p[1], ps]];
+        let v = [
+            [0.0, 0.0, w],
+            [0.0, 0.0, w * rocker],
+            [vp[0], vp[1], w * coupler],
+        ];
+        let chain = Bodies {
+            a,
+            b,
+            c: a,
+            j: [1.0, 0.0][kind],
+        };
+        return (chain.prepared(), start(q.concat(), v.concat()));
+    }
+    // The height of the point over the coupler is half of that.
+    let beside = sum(along(ps, 0.5 * a), along(ps + 0.5 * PI, 0.25 * a));
+    let q = [p, sum([a, 0.0], arm), sum(p, beside)];
+    let v = [vp, turned(arm, rocker), sum(vp, turned(beside, coupler))];
+    let chain = Points {
+        a,
+        b,
+        l: beside[0].hypot(beside[1]),
+    };
+    (chain.prepared(), start(q.concat(), v.concat()))
+}
+
+/// How far the angle of the rocker is from that of the crossed chain.
+fn off(kind: usize, [a, b]: [f64; 2], s: Sample<'_>) -> f64 {
+    let (crank, rocker) = match kind {
+        0 | 1 => (s.q[Bodies::CRANK_ANGLE], s.q[Bodies::ROCKER_ANGLE]),
+        _ => (s.q[1].atan2(s.q[0]), s.q[3].atan2(s.q[2] - a)),
+    };
+    let turn = (rocker - crossed(crank, a, b)[0][1]).rem_euclid(2.0 * PI);
+    turn.min(2.0 * PI - turn)
+}
+
+#[test]
+fn parts_without_mass_pass_change_points_in_the_branch_they_came_on() {
+    let runs = [
+        (Method::Dop853, 1e-4),
+        (Method::Dop853, 1e-7),
+        (Method::Dop853, 1e-10),
+        (Method::Dop853, 1e-12),
+        (Method::Dopri5, 1e-5),
+        (Method::Dopri5, 1e-9),
+        (Method::Radau5, 1e-4),
+        (Method::Radau5, 1e-7),
+    ];
+    let mut wrong = Vec::new();
+    for (k, (method, tolerance)) in runs.into_iter().enumerate() {
+        for (i, rods) in [[2.0, 1.0], [1.0, 0.3], [1.3, 1.1], [0.7, 1.0]]
+            .into_iter()
+            .enumerate()
+        {
+            for kind in 0..3 {
+                let w = 1.1 + 0.37 * (i + 2 * k + kind) as f64;
+                let (mechanism, start) = chain(kind, rods, 0.4 + 0.1 * k as f64, w);
+                let run = Simulation::new(mechanism)
+                    .start(start)
+                    .method(method)
+                    .tolerance(tolerance);
+                let label = format!("kind {kind}, rods {rods:?}, {w}/s, {method}, {tolerance:e}");
+                match run.max_steps(10_000).every(0.05).until(4.0) {
+                    Ok(run) => {
+                        let off = run
+                            .samples()
+                            .map(|s| off(kind, rods, s))
+                            .fold(0.0, f64::max);
+                        if off > (30.0 * tolerance).max(1e-7) {
+                            wrong.push(format!("{label}: off by {off:.1e}"));
+                        }
+                    }
+                    Err(failure) => wrong.push(format!("{label}: {failure}")),
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
