@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use tests::less_turns;
 use ukcore::simulate::Sample;
 use ukcore::{Mechanism, Method, Prepared, Simulation, State};
 
@@ -92,8 +93,7 @@ fn off(kind: usize, [a, b]: [f64; 2], s: Sample<'_>) -> f64 {
         0 | 1 => (s.q[Bodies::CRANK_ANGLE], s.q[Bodies::ROCKER_ANGLE]),
         _ => (s.q[1].atan2(s.q[0]), s.q[3].atan2(s.q[2] - a)),
     };
-    let turn = (rocker - crossed(crank, a, b)[0][1]).rem_euclid(2.0 * PI);
-    turn.min(2.0 * PI - turn)
+    less_turns(rocker - crossed(crank, a, b)[0][1]).abs()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A crank's pin in the slot of a lever, past the lever's pivot at a small distance: there the lever turns by half a turn where it would go
 //! straight on beside it. Long steps lead past several such places; late, the time is known no better than they are wide.
 
-use std::f64::consts::{PI, TAU};
+use tests::less_turns;
 use ukcore::{Error, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -57,8 +57,8 @@ fn turning(t: f64, r: f64, th: f64, w: f64) -> State {
 /// How far the lever is off the direction of the pin, where that is `far` enough from its pivot to have one.
 fn off(r: f64, q: &[f64], far: f64) -> f64 {
     let [x, y] = pin(r, q[0]);
-    let off = (q[1] - y.atan2(x) + PI).rem_euclid(TAU) - PI;
-    if x.hypot(y) < far { 0.0 } else { off.abs() }
+    let off = less_turns(q[1] - y.atan2(x)).abs();
+    if x.hypot(y) < far { 0.0 } else { off }
 }
 
 #[test]

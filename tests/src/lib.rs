@@ -13,6 +13,8 @@ pub use linkage::FourBar;
 pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 
+use std::f64::consts::{PI, TAU};
+
 use ukcore::model::{Entry, StartOptions};
 
 /// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.
@@ -72,6 +74,12 @@ pub fn hunted(usual: u64) -> u64 {
 #[must_use]
 pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}
+
+/// An angle less the whole turns in it, between −π and π.
+#[must_use]
+pub fn less_turns(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
 }
 
 /// The examples of README and chapters, compiled and run.

@@ -149,11 +149,11 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
 /// `error`, or that no direction is there, where it says that something is not finite at a state (t, q, q̇) where a term divides by a
 /// length which is zero.
 pub(crate) fn undirected(mech: &Prepared, (t, q, v): (f64, &[f64], &[f64]), error: Error) -> Error {
-    let switches = mech.spec().switches;
-    let mut values = vec![0.0; switches.len()];
     if !matches!(error, Error::NonFinite { .. }) {
         return error;
     }
+    let switches = mech.spec().switches;
+    let mut values = vec![0.0; switches.len()];
     mech.switching(t, q, v, &mut values);
     let zero = switches.iter().zip(values);
     let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);

@@ -25,6 +25,7 @@ mod parts;
 mod rank_revealing;
 mod search;
 
+pub(crate) use acceptance::STALLED;
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
 pub(crate) use parts::{Part, parts};

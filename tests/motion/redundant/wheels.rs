@@ -2,48 +2,36 @@
 //! as the cart turns. Steps are so long that states between their ends are off the constraints by as much as what drift lends to rows, and
 //! what has been independent comes to imply each other again and again, but the rank stays as it is. A cart that turns evenly goes on so.
 
-use std::f64::consts::TAU;
+use tests::less_turns;
 use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State};
 
-ukcore::multibody! {
-    /// A frame that hangs from an axle with two wheels, which turn on hinges of the tree; z points up.
-    Hinged {
-        params { b = 0.5, r = 0.3, h = 0.2, g = 9.81 }
-        let side = [b, -b];
-        bodies {
-            spatial frame { mass: 5, inertia: [0.3, 0.25, 0.2], centre: [0, 0, -h] }
-            for i in 0..2 { spatial wheel[i] { mass: 1, inertia: [0.02, 0.04, 0.02] } }
+/// `hinged!(Name, n, [y of each wheel])`: a frame that hangs from an axle with n wheels, which turn on hinges of the tree; z points up.
+macro_rules! hinged {
+    ($name:ident, $n:literal, $side:tt) => {
+        ukcore::multibody! {
+            $name {
+                const N: usize = $n;
+                params { b = 0.5, r = 0.3, h = 0.2, g = 9.81 }
+                let side = $side;
+                bodies {
+                    spatial frame { mass: 5, inertia: [0.3, 0.25, 0.2], centre: [0, 0, -h] }
+                    for i in 0..N { spatial wheel[i] { mass: 1, inertia: [0.02, 0.04, 0.02] } }
+                }
+                gravity { [0, 0, -g] }
+                tree { for i in 0..N { axle[i]: hinge(frame.at([0, side[i], 0]), wheel[i].at([0, 0, 0]), [0, 1, 0]) } }
+                holonomic { for i in 0..N { touch[i]: disc(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
+                nonholonomic { for i in 0..N { grip[i]: rolls(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
+                start turning(speed = 0.0, rate = 1.0) {
+                    frame.e0 near 1; frame.centre near [0, 0, r - h];
+                    frame.omega = [0, 0, rate]; dot(frame.centre) = [speed, 0, 0]
+                }
+            }
         }
-        gravity { [0, 0, -g] }
-        tree { for i in 0..2 { axle[i]: hinge(frame.at([0, side[i], 0]), wheel[i].at([0, 0, 0]), [0, 1, 0]) } }
-        holonomic { for i in 0..2 { touch[i]: disc(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
-        nonholonomic { for i in 0..2 { grip[i]: rolls(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
-        start turning(speed = 0.0, rate = 1.0) {
-            frame.e0 near 1; frame.centre near [0, 0, r - h];
-            frame.omega = [0, 0, rate]; dot(frame.centre) = [speed, 0, 0]
-        }
-    }
+    };
 }
 
-ukcore::multibody! {
-    /// The same with a third wheel in the middle of the axle.
-    Three {
-        params { b = 0.5, r = 0.3, h = 0.2, g = 9.81 }
-        let side = [b, 0, -b];
-        bodies {
-            spatial frame { mass: 5, inertia: [0.3, 0.25, 0.2], centre: [0, 0, -h] }
-            for i in 0..3 { spatial wheel[i] { mass: 1, inertia: [0.02, 0.04, 0.02] } }
-        }
-        gravity { [0, 0, -g] }
-        tree { for i in 0..3 { axle[i]: hinge(frame.at([0, side[i], 0]), wheel[i].at([0, 0, 0]), [0, 1, 0]) } }
-        holonomic { for i in 0..3 { touch[i]: disc(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
-        nonholonomic { for i in 0..3 { grip[i]: rolls(wheel[i].at([0, 0, 0]), [0, 1, 0], r) } }
-        start turning(speed = 0.0, rate = 1.0) {
-            frame.e0 near 1; frame.centre near [0, 0, r - h];
-            frame.omega = [0, 0, rate]; dot(frame.centre) = [speed, 0, 0]
-        }
-    }
-}
+hinged!(Hinged, 2, [b, -b]);
+hinged!(Three, 3, [b, 0, -b]);
 
 ukcore::multibody! {
     /// Two wheels held to the frame by constraints.
@@ -74,8 +62,7 @@ const UNTIL: f64 = 5.0;
 
 /// How far the frame is off the even turn at the end of a run: in its heading, and in the place of its axle.
 fn off(end: &[f64], speed: f64, rate: f64) -> f64 {
-    let heading = 2.0 * end[6].atan2(end[3]) - rate * UNTIL;
-    let heading = (heading + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+    let heading = less_turns(2.0 * end[6].atan2(end[3]) - rate * UNTIL);
     let (sin, cos) = (rate * UNTIL).sin_cos();
     let way = speed / rate;
     let place = (end[0] - way * sin).hypot(end[1] - way * (1.0 - cos));

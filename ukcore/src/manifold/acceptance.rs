@@ -10,7 +10,7 @@ pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Where no step makes it less, a residual will do if it does not exceed this many ε of the rounding that evaluating it carries, where
 /// coordinates are known to rounding of the largest of them: terms that cancel, or constraints that nearly lose rank, can keep it above
 /// [`ROUNDING`]. Lengths of links among coordinates thirty times as large still hold to 1e-12.
-pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
+pub(crate) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
 /// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is

@@ -10,7 +10,7 @@ use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Singular, Step, Tolerance, Trouble};
-use crate::manifold::Projector;
+use crate::manifold::{Projector, STALLED};
 use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::noise::Noise;
@@ -22,9 +22,6 @@ const SINGULAR: f64 = 1.5e-8;
 
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
-
-/// A residual of so many roundings of its terms, or less, is none.
-const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;

@@ -10,7 +10,7 @@ use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
 use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
-use crate::scan::largest;
+use crate::scan::{largest, largest_difference};
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -213,9 +213,7 @@ const ANOTHER: f64 = 0.25;
 
 /// Whether these velocities, of a motion with velocities of this `size`, are not `v` but for a correction.
 fn is_another(v: &[f64], other: &[f64], size: f64) -> bool {
-    let pairs = v.iter().zip(other);
-    let change = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-    change > ANOTHER * size.max(largest(v))
+    largest_difference(v, other) > ANOTHER * size.max(largest(v))
 }
 
 /// The integrals at `t`.
