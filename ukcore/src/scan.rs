@@ -3,8 +3,6 @@
 
 use crate::scalar::Scalar;
 
-const PARTS: usize = 8;
-
 /// Whether all numbers are finite. A sum is finite only if all its terms are; where it is not, it may have overflowed, and each is looked
 /// at.
 #[inline]
@@ -51,6 +49,22 @@ pub(crate) fn largest_difference<S: Scalar>(x: &[S], y: &[S]) -> S {
 /// Joins what `f` makes of each pair of numbers, starting from 0.
 #[inline(always)]
 pub(crate) fn reduce<S: Scalar>(
+    x: &[S],
+    y: &[S],
+    f: impl Fn(S, S) -> S,
+    join: impl Fn(S, S) -> S,
+) -> S {
+    // Lanes fill registers by themselves.
+    if size_of::<S>() > size_of::<f64>() {
+        reduce_in::<S, 2>(x, y, f, join)
+    } else {
+        reduce_in::<S, 8>(x, y, f, join)
+    }
+}
+
+/// The same in so many parts.
+#[inline(always)]
+fn reduce_in<S: Scalar, const PARTS: usize>(
     x: &[S],
     y: &[S],
     f: impl Fn(S, S) -> S,

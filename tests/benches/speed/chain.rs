@@ -21,6 +21,7 @@ pub(crate) trait Number:
 }
 impl Number for f64 {}
 impl Number for f64x2 {}
+impl Number for wide::f64x4 {}
 impl Number for wide::f64x8 {}
 
 /// Parameters, as the declared model has them.
@@ -235,15 +236,10 @@ pub(crate) fn both_ends_minors<const N: usize>(
     by_minors::<f64, N>(chain.g, q, v, out);
 }
 
-/// Eight chains at once, one a lane; see [`by_minors`].
+/// A chain in each lane; see [`by_minors`].
 #[inline(never)]
-pub(crate) fn lanes<const N: usize>(
-    chain: &Chain,
-    q: &[wide::f64x8],
-    v: &[wide::f64x8],
-    out: &mut [wide::f64x8],
-) {
-    by_minors::<wide::f64x8, N>(wide::f64x8::from(chain.g), q, v, out);
+pub(crate) fn lanes<T: Number, const N: usize>(chain: &Chain, q: &[T], v: &[T], out: &mut [T]) {
+    by_minors::<T, N>(T::from(chain.g), q, v, out);
 }
 
 /// By minors, with the two ends as the two halves of one register.

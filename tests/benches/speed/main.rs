@@ -15,6 +15,7 @@ mod four_bars;
 mod harness;
 #[cfg(feature = "large")]
 mod legs;
+mod many;
 mod mechanisms;
 mod recursive;
 mod runs;

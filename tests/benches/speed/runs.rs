@@ -1,5 +1,6 @@
 //! Whole runs, and many chains at once.
 
+use std::array;
 use std::hint::black_box;
 
 use models::{Model, UChain};
@@ -11,6 +12,7 @@ use wide::{f64x4, f64x8};
 use crate::accelerations::states;
 use crate::chain::{self, Chain};
 use crate::harness::{Contender, Group};
+use crate::many;
 
 /// Links.
 pub(crate) const N: usize = 17;
@@ -177,7 +179,7 @@ pub(crate) fn lanes() -> Value {
     let packs: Vec<Pack<f64x8>> = packs(&states);
     let mut out = vec![f64x8::splat(0.0); 2 * N];
     for ((q, v), states) in packs.iter().zip(states.chunks_exact(LANES)) {
-        chain::lanes::<N>(&chain, q, v, &mut out);
+        chain::lanes::<f64x8, N>(&chain, q, v, &mut out);
         for (lane, state) in states.iter().enumerate() {
             let mut expected = vec![0.0; 2 * N];
             mech.prepared()
@@ -207,7 +209,7 @@ pub(crate) fn lanes() -> Value {
         evaluations,
         work: Box::new(|| {
             for (q, v) in &packs {
-                chain::lanes::<N>(&chain, q, v, &mut out);
+                chain::lanes::<f64x8, N>(&chain, q, v, &mut out);
                 black_box(&mut out);
             }
         }),
@@ -261,10 +263,11 @@ pub(crate) fn ensemble() -> Value {
         .build()
         .expect("a thread");
     let results = one_core.install(|| ensemble.until(END));
-    let mut rejected = 0;
+    let (mut rejected, mut ends) = (0, Vec::new());
     for (k, result) in results.iter().enumerate() {
         let member = result.as_ref().expect("the run succeeds");
         rejected += member.work.rejected;
+        ends.push([&member.end.q[..], &member.end.v].concat());
         if k % 100 == 0 {
             let (expected, _) = ours_alone(&mech, &starts[k], 1e-9, Stabilisation::Projection);
             tests::assert_all_close("ensemble", &member.end.q, &expected[..2 * N], 1e-6);
@@ -277,12 +280,47 @@ pub(crate) fn ensemble() -> Value {
         work: Box::new(|| {
             black_box(one_core.install(|| ensemble.until(END)));
         }),
-        remark: format!("{rejected} steps rejected in all"),
+        remark: format!(
+            "error {:.0e}, {rejected} steps rejected in all",
+            error(&ends[0])
+        ),
     };
+    let chain = parameters(&mech);
+    let pack = |first: usize| -> many::States {
+        array::from_fn(|i| {
+            let at = |k: usize| {
+                let s = &starts[(first + k) % CHAINS];
+                if i < 2 * N { s.q[i] } else { s.v[i - 2 * N] }
+            };
+            Lanes::from_lanes(at)
+        })
+    };
+    let first = |(y, _): (many::States, usize)| y.map(|x| x.lane(0)).to_vec();
+    let by_hand = |name: &str, wanted: f64| {
+        let run = |tolerance| first(many::run(&chain, pack(0), END, tolerance));
+        let tolerance = tolerance_for(wanted, run);
+        let (y, evaluations) = many::run(&chain, pack(0), END, tolerance);
+        let mut own = 0;
+        let (chain, pack) = (&chain, &pack);
+        Contender {
+            name: name.to_owned(),
+            by_hand: true,
+            evaluations: many::WIDTH,
+            work: Box::new(move || {
+                own = (own + many::WIDTH) % CHAINS;
+                black_box(many::run(chain, pack(own), END, tolerance));
+            }),
+            remark: remark(tolerance, &first((y, 0)), evaluations),
+        }
+    };
+    let at_equal_error = by_hand(
+        "by hand, in lanes, not projected, as exact",
+        error(&ends[0]),
+    );
     let group = Group {
         name: "ensemble/uchain17",
         remarks: vec!["time per chain".to_owned()],
-        contenders: vec![ours, in_lanes],
+        contenders: vec![at_equal_error, ours, in_lanes],
     };
     group.run()
 }

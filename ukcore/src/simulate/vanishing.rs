@@ -257,7 +257,7 @@ impl RowWatch {
     }
 
     /// Whether rows are to be looked at on a step between these times.
-    fn is_due(&self, from: f64, to: f64) -> bool {
+    pub(super) fn is_due(&self, from: f64, to: f64) -> bool {
         self.sizes.is_empty() || (to - self.due) * (to - from) >= 0.0
     }
 

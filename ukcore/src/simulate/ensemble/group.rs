@@ -1,5 +1,6 @@
 //! Members that step side by side in the lanes of one number.
 
+use std::array;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,6 +13,7 @@ use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
 use crate::scalar::Scalar;
+use crate::scan::reduce;
 use crate::solver::RANK_CEILING;
 
 /// As many members as there are lanes, at most.
@@ -30,12 +32,15 @@ pub(super) struct Group<'a> {
     results: Vec<(usize, Result<Member, Error>)>,
 }
 
+/// Some of the lanes.
+type Which = [bool; Wide::WIDTH];
+
 /// The members and their right-hand sides.
 struct Members {
     solver: LaneSolver<Wide>,
-    lanes: Vec<Option<Running>>,
+    lanes: [Option<Running>; Wide::WIDTH],
     /// Lanes that take part in the evaluation.
-    alive: Vec<bool>,
+    alive: Which,
     /// Start times.
     t0: Wide,
 }
@@ -69,9 +74,9 @@ impl Rates<Wide> for Members {
 
 impl Members {
     /// What runs in the lanes of `which`, with their numbers.
-    fn running(&mut self, which: &[bool]) -> impl Iterator<Item = (usize, &mut Running)> {
+    fn running(&mut self, which: Which) -> impl Iterator<Item = (usize, &mut Running)> {
         let lanes = self.lanes.iter_mut().enumerate();
-        lanes.filter_map(|(k, running)| Some((k, running.as_mut().filter(|_| which[k])?)))
+        lanes.filter_map(move |(k, running)| Some((k, running.as_mut().filter(|_| which[k])?)))
     }
 
     /// A number with f of each running member, 0 in idle lanes.
@@ -84,12 +89,12 @@ fn lane(all: &[Wide], k: usize) -> Vec<f64> {
     all.iter().map(|x| x.lane(k)).collect()
 }
 
-fn mask(which: &[bool]) -> Wide {
+fn mask(which: Which) -> Wide {
     Wide::from_lanes(|k| f64::from(u8::from(which[k])))
 }
 
 /// Takes the new one of two numbers in the lanes of `which`, the old one in the others.
-fn choose(which: &[bool]) -> impl Fn(Wide, Wide) -> Wide {
+fn choose(which: Which) -> impl Fn(Wide, Wide) -> Wide {
     let which = mask(which);
     move |new, old| Wide::select_le(Wide::from_f64(0.5), which, new, old)
 }
@@ -118,8 +123,8 @@ impl<'a> Group<'a> {
             newton: Newton::new(spec),
             members: Members {
                 solver: LaneSolver::with(ensemble.lanes.clone(), mechanism.clone()).project(),
-                lanes: (0..Wide::WIDTH).map(|_| None).collect(),
-                alive: vec![false; Wide::WIDTH],
+                lanes: array::from_fn(|_| None),
+                alive: [false; Wide::WIDTH],
                 t0: Wide::from_f64(0.0),
             },
             raw: zeros,
@@ -141,22 +146,22 @@ impl<'a> Group<'a> {
 
     /// Gives idle lanes the next members, evaluates f at their starts, and chooses their first step sizes. Returns whether there were any.
     fn refill(&mut self) -> bool {
-        let fresh: Vec<bool> = (0..Wide::WIDTH).map(|k| self.admit(k)).collect();
+        let fresh: Which = array::from_fn(|k| self.admit(k));
         if !fresh.contains(&true) {
             return false;
         }
-        self.members.alive.clone_from(&fresh);
+        self.members.alive = fresh;
         let (members, s) = (&mut self.members, Wide::from_f64(0.0));
-        let Ok(()) = self.stepper.begin(members, s, choose(&fresh));
-        for (k, fresh) in fresh.iter().enumerate() {
-            if *fresh && !self.members.alive[k] {
+        let Ok(()) = self.stepper.begin(members, s, choose(fresh));
+        for (k, fresh) in fresh.into_iter().enumerate() {
+            if fresh && !self.members.alive[k] {
                 self.fail(k, Error::too_small(0.0));
             }
         }
         let members = &mut self.members;
         let largest = members.each(|r| r.course.largest_first());
         let first = self.stepper.first_size(members, s, largest);
-        for (k, running) in members.running(&fresh) {
+        for (k, running) in members.running(fresh) {
             running.course.h = first.lane(k);
             // Where f could not be evaluated for it, no step failed.
             running.course.trouble = None;
@@ -241,17 +246,17 @@ impl<'a> Group<'a> {
             members.each(|r| r.trial.h),
         );
         let control = stepper.control();
-        let tried = members.alive.clone();
+        let tried = members.alive;
         let Ok(errors) = stepper.attempt(members, start, step);
-        let mut judged = members.alive.clone();
-        for (k, running) in members.running(&tried) {
+        let mut judged = members.alive;
+        for (k, running) in members.running(tried) {
             let error = if judged[k] { errors.lane(k) } else { f64::NAN };
             judged[k] = error <= 1.0;
             if !judged[k] {
                 running.course.h = running.size.inaccurate(control, running.trial.h, error);
             }
         }
-        members.alive.clone_from(&judged);
+        members.alive = judged;
         self.project();
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let end = members.each(|r| r.trial.end.s);
@@ -259,8 +264,8 @@ impl<'a> Group<'a> {
         self.watch();
         self.record(start, step, errors);
         let (stepper, members) = (&mut self.stepper, &mut self.members);
-        let alive = members.alive.clone();
-        for (k, running) in members.running(&judged) {
+        let alive = members.alive;
+        for (k, running) in members.running(judged) {
             let (trial, course, size) = (running.trial, &mut running.course, &mut running.size);
             if alive[k] {
                 course.advance(trial, || stepper.states().map(|y| lane(y, k)));
@@ -270,7 +275,7 @@ impl<'a> Group<'a> {
                 course.h = size.unfit(trial.h);
             }
         }
-        stepper.advance(choose(&alive));
+        stepper.advance(choose(alive));
         for k in (0..Wide::WIDTH).filter(|&k| alive[k]) {
             self.finish(k);
         }
@@ -279,10 +284,12 @@ impl<'a> Group<'a> {
     /// Members that meet what lanes do not get across go on alone, from their start.
     fn watch(&mut self) {
         let alive = self.members.alive.clone();
-        let stepper = &self.stepper;
+        let states = self.stepper.states();
+        let [old, new] = states.map(|y| &y[y.len() / 2..]);
+        let along = reduce(old, new, |old, new| old * new, |s, x| s + x);
         let mut lost = Vec::new();
-        for (k, running) in self.members.running(&alive) {
-            if running.leaves(|| stepper.states().map(|y| lane(y, k))) {
+        for (k, running) in self.members.running(alive) {
+            if running.leaves(along.lane(k) < 0.0, || states.map(|y| lane(y, k))) {
                 lost.push((k, running.index));
             }
         }
@@ -302,15 +309,15 @@ impl<'a> Group<'a> {
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
     fn project(&mut self) {
         let members = &mut self.members;
-        let wanted = mask(&members.alive);
+        let wanted = mask(members.alive);
         let t = members.each(|r| r.trial.end.t);
         self.raw.copy_from_slice(self.stepper.states()[1]);
         let new = self.stepper.end_mut();
         let (q, v) = new.split_at_mut(new.len() / 2);
         let prepared = members.solver.prepared();
         let (good, steps) = self.newton.project(prepared, t, [q, v], wanted);
-        let mut alive = members.alive.clone();
-        for (k, running) in members.running(&alive.clone()) {
+        let mut alive = members.alive;
+        for (k, running) in members.running(alive) {
             if good.lane(k) > 0.5 {
                 let work = &mut running.recorder.trajectory.work;
                 work.projections += 1;
@@ -325,10 +332,11 @@ impl<'a> Group<'a> {
         let [old, new] = self.stepper.states();
         let change = new.iter().zip(&self.raw).map(|(new, raw)| *new - *raw);
         let change = projection_norm(change, [old, &self.raw], &self.stepper.tolerance);
-        for (k, running) in members.running(&alive.clone()) {
-            let [new, raw, old] = [new, &self.raw, old].map(|y| lane(y, k));
-            let near = change.lane(k) <= PROJECTION_LIMIT;
-            alive[k] = near || running.is_near(&new, &raw, &old);
+        for (k, running) in members.running(alive) {
+            alive[k] = change.lane(k) <= PROJECTION_LIMIT || {
+                let [new, raw, old] = [new, &self.raw, old].map(|y| lane(y, k));
+                running.is_near(&new, &raw, &old)
+            };
         }
         members.alive = alive;
     }
@@ -337,18 +345,18 @@ impl<'a> Group<'a> {
     /// no further part.
     fn record(&mut self, start: Wide, step: Wide, errors: Wide) {
         let (stepper, members) = (&mut self.stepper, &mut self.members);
-        let alive = members.alive.clone();
-        let mut wanted = vec![false; Wide::WIDTH];
-        for (k, running) in members.running(&alive) {
+        let alive = members.alive;
+        let mut wanted = [false; Wide::WIDTH];
+        for (k, running) in members.running(alive) {
             wanted[k] = running.wants_interpolant();
         }
         if !wanted.contains(&true) {
             return;
         }
-        members.alive.clone_from(&wanted);
+        members.alive = wanted;
         let Ok(()) = stepper.interpolate(members, start, step);
         let mut done = std::mem::replace(&mut members.alive, alive);
-        for (k, running) in members.running(&done.clone()) {
+        for (k, running) in members.running(done) {
             let states = stepper.states().map(|y| lane(y, k));
             let error = (lane(stepper.estimate(), k), errors.lane(k));
             done[k] = running.record(states, &lane(stepper.dense(), k), error);

@@ -78,8 +78,8 @@ impl Running {
     }
 
     /// Whether the member is to go on alone: steps are short about what may be the zero of a length, or A loses a row on the step in hand,
-    /// from and to the states that `states` gives.
-    pub(super) fn leaves(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
+    /// from and to the states that `states` gives, between which the motion turns back or not.
+    pub(super) fn leaves(&mut self, rests: bool, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
         if self.course.pace.is_slow() {
             return true;
         }
@@ -88,6 +88,9 @@ impl Running {
             return false;
         }
         let Trial { start, end, .. } = self.trial;
+        if !rests && !self.rows.is_due(start.t, end.t) {
+            return false;
+        }
         let states = states();
         let [old, new] =
             [(start.t, &states[0]), (end.t, &states[1])].map(|(t, y)| Sample::of(t, y));
