@@ -238,7 +238,7 @@ impl Error {
         names: &mut dyn Iterator<Item = &str>,
     ) -> Self {
         let known: Vec<String> = names.map(str::to_owned).collect();
-        // At most half of it, as for names in a declaration.
+        // At most half of it.
         let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
         let nearest = known.iter().min_by_key(|n| distance(name, n));
         let nearest = nearest.filter(|n| distance(name, n) <= most(n)).cloned();

@@ -57,7 +57,7 @@ pub trait Model: Mechanism {
     /// The first start with default options.
     ///
     /// # Errors
-    /// [`Error::InvalidSetting`] if the parameters of `self` do not admit it, or if there is no start.
+    /// What [`Model::start`] reports; [`Error::UnknownName`] if there is no start.
     fn default_start(&self) -> Result<State, Error> {
         let name = Self::starts().first().map_or("", |s| s.name);
         self.start(name, &StartOptions::new())
@@ -116,6 +116,8 @@ pub struct Entry {
     pub mechanism: Prepared,
     /// The start states on offer; the first is the default.
     pub starts: &'static [StartSpec],
+    /// [`Model::duration`].
+    pub duration: f64,
     /// [`Model::variations`].
     pub variations: &'static [&'static [(&'static str, f64)]],
     /// The emitted functions: name and text.
@@ -143,6 +145,7 @@ impl Entry {
                 M::ID.to_owned()
             },
             starts: M::starts(),
+            duration: M::duration(),
             variations: M::variations(),
             start,
             references: M::references,
@@ -158,6 +161,7 @@ impl Entry {
             summary: M::SPEC.doc.trim().lines().next().unwrap_or_default().trim(),
             mechanism: M::default().prepared(),
             starts: M::SPEC.starts,
+            duration: StartSpec::typical(M::SPEC.starts.first()),
             variations: &[],
             code: M::CODE,
             start: Prepared::start,
@@ -176,12 +180,6 @@ impl Entry {
         options: &StartOptions,
     ) -> Result<State, Error> {
         (self.start)(mechanism, name, options)
-    }
-
-    /// Duration of a typical run from the default start, s.
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        StartSpec::typical(self.starts.first())
     }
 
     /// [`Model::references`].

@@ -11,7 +11,7 @@ pub use double::DoubleDouble;
 pub use slopes::{Slope, Sloped, Slopes};
 pub use tape::{Functions, Tape};
 
-/// A number type for emitted code: `f64`, `f32`, or [`Dual`] for exact derivatives.
+/// A number type for emitted code: `f64`, `f32`, [`Dual`] for exact derivatives, [lanes](crate::lanes) of several numbers.
 ///
 /// One straight-line program serves them all; constants enter through [`Scalar::from_f64`], branches through [`Scalar::select_le`].
 pub trait Scalar:
@@ -358,6 +358,7 @@ impl<S: Scalar, E: Slope<S>> Scalar for Dual<S, E> {
     fn powi(self, n: i32) -> Self {
         let slope = match n {
             0 => S::from_f64(0.0),
+            i32::MIN => S::from_f64(f64::from(n)) * (self.re.powi(n) / self.re),
             _ => S::from_f64(f64::from(n)) * self.re.powi(n - 1),
         };
         self.chain(self.re.powi(n), slope)

@@ -1,4 +1,4 @@
-//! Curves of a motion as they are drawn by `run --plot`.
+//! Curves as they are drawn by `run --plot` and `kinematics --plot`.
 
 use std::mem;
 

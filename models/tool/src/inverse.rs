@@ -2,15 +2,17 @@
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::{Effort, Error, Inverse};
 
+use crate::command;
 use crate::failure::Failure;
 use crate::motion::{self, INTERVALS, Motion};
 use crate::numbers::{extremes, full, significant, width};
-use crate::output;
+use crate::output::{self, write_whole};
 use crate::scene::{Ready, Scene};
 
 /// The command-line arguments of the command `inverse`, to be flattened into a parser of `clap`.
@@ -28,9 +30,9 @@ pub struct InverseArgs {
     /// Sample at this interval; a thousandth of the run if absent
     #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Print the efforts and powers at all samples as CSV instead
-    #[arg(long)]
-    pub csv: bool,
+    /// Write the efforts and powers at all samples as CSV; `-` is standard output
+    #[arg(long, value_name = "FILE", value_parser = command::path_or_stdout)]
+    pub csv: Option<PathBuf>,
 }
 
 /// Times of a run at which rows are looked at for a motion that they prescribe.
@@ -73,10 +75,12 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
             Some(_) => ControlFlow::Break(()),
         }
     })?;
-    output::to_stdout(|out| match args.csv {
-        true => rows(out, &samples),
-        false => summary(out, &ready, &samples),
-    })?;
+    if let Some(path) = &args.csv {
+        write_whole(path, |out| rows(out, &samples))?;
+    }
+    if !args.csv.as_deref().is_some_and(output::is_stdout) {
+        output::to_stdout(|out| summary(out, &ready, &samples))?;
+    }
     error.or(broken).map_or(Ok(()), |error| Err(error.into()))
 }
 
@@ -111,13 +115,14 @@ fn summary(
     for (k, motor) in first.iter().enumerate() {
         let (least, most) = extremes(samples.iter().map(|(_, efforts)| efforts[k].effort));
         let powers = samples.iter().map(|(t, efforts)| (*t, efforts[k].power));
-        let (at, power) = powers.clone().fold((0.0, 0.0), |best: (f64, f64), now| {
+        let larger = |best: (f64, f64), now: (f64, f64)| {
             if now.1.abs() > best.1.abs() {
                 now
             } else {
                 best
             }
-        });
+        };
+        let (at, power) = powers.clone().reduce(larger).unwrap_or_default();
         let pairs = powers.clone().zip(powers.skip(1));
         let work: f64 = pairs
             .map(|((t, p), (later, next))| 0.5 * (later - t) * (p + next))

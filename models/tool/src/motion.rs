@@ -1,4 +1,4 @@
-//! How a motion is computed: the arguments that `run` and `animate` share, and the run itself.
+//! How a motion is computed: the arguments of commands that follow one run, and the run itself.
 
 use std::ops::{ControlFlow, Range};
 

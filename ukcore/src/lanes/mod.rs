@@ -3,7 +3,7 @@
 //! Emitted code is one straight line for any [`Scalar`]; with a scalar of eight lanes it evaluates eight mechanisms, each with
 //! parameters, time and state of its own. No lane sees another one: what comes out of a lane does not depend on what is in the others.
 //!
-//! - [`Lanes`]: numbers with lanes; `f64` has one, `wide::f64x4` and `wide::f64x8` (feature `lanes`) have four and eight.
+//! - [`Lanes`]: numbers with lanes; `f64` has one, `wide::f64x4` and `wide::f64x8` (feature `ensemble`) have four and eight.
 //! - [`LaneSolver`]: q̈ in lanes; where the emitted elimination is not safe in a lane, that lane is solved again, alone.
 //!
 //! Without a target that has wide registers (`-C target-cpu=native`, or `x86-64-v3`) lanes are pairs of SSE2.

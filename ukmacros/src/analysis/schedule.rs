@@ -34,8 +34,8 @@ pub(crate) enum Step {
     Store(usize),
 }
 
-/// Orders the computation of `roots`: each is stored as soon as it is known; what is used more than once, or has a name
-/// a name, becomes a variable.
+/// Orders the computation of `roots`: each is stored as soon as it is known; what is used more than once, or has a name,
+/// becomes a variable.
 pub(crate) fn schedule(
     g: &Graph,
     roots: &[Id],

@@ -159,7 +159,7 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         name,
         entry,
         start: Start::default(),
-        end: entry.duration(),
+        end: entry.duration,
         reference,
     };
     let mut jobs: Vec<Job<'_>> = Vec::new();

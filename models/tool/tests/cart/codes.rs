@@ -50,7 +50,7 @@ fn a_motion_may_have_no_length() {
     output(&format!("animate cart --until 0 --out {page}"));
     output(&format!("sweep cart --until 0 --set k=1,2 --out {table}"));
     output("diagnose cart --until 0");
-    let rod = output("inverse cart --motor rod --until 0 --csv");
+    let rod = output("inverse cart --motor rod --until 0 --csv -");
     assert_eq!(rod.lines().count(), 2, "{rod}");
     for command in ["report", "stability"] {
         let line = format!("{command} cart --until 0 --out {}", path(command));

@@ -397,7 +397,7 @@ fn constraints_are_diagnosed() {
         efforts.contains("effort(x) (N)") && efforts.contains("power(s) (W)"),
         "{efforts}"
     );
-    let rod = output("inverse cart --motor rod --until 0.2 --csv");
+    let rod = output("inverse cart --motor rod --until 0.2 --csv -");
     assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
 }
 
