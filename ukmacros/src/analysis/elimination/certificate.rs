@@ -22,7 +22,8 @@
 //!   terms for the square of the difference.
 //! - A coordinate that is given by others moves a constraint no longer where these do not move it (slider and crank at their dead centre:
 //!   what is left of the row vanishes as a whole). The constraint's G keeps a²/μ of the coordinate, as if it were still there; so the last
-//!   constraint's share is that of its row of B before any substitution, up to a factor of 2.
+//!   constraint's share is that of its row of B before any substitution, up to a factor of 2. Without inertia of its own it counts by that
+//!   of the coordinates that give it, where these move it or others most.
 //!
 //! A share says how far λ can be trusted, not how far q̈ = M⁻¹ (Q + Aᵀλ) can: of a light coordinate that constraints tie to heavy ones the
 //! sum all but cancels, and ε |Q|/m of its acceleration is rounding. Whether a coordinate is light in that sense is a matter of a²/m, the

@@ -4,7 +4,7 @@ use super::dropping::reciprocal;
 use super::entry::Entry;
 use super::pair::Double;
 use super::rotation::{Turned, apart};
-use super::{Divisor, Pivoting};
+use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,6 +33,10 @@ pub(super) struct Matrix<'a> {
     droppable: BTreeSet<usize>,
     /// Of what took the place of two coordinates, how many rotations before it were not scaled.
     pub(super) turned: Vec<Option<usize>>,
+    /// Coordinates with the constraints that they are eliminated with, until the first of them is.
+    pub(super) given: Vec<Pair>,
+    /// Of each coordinate, [how far](Matrix::mobility) those move that it gives, where that varies.
+    pub(super) mobilities: BTreeMap<usize, Id>,
     /// Whether what stands for different coordinates shares little inertia, whatever the state.
     pub(super) apart: bool,
     /// Whether what a pair leaves is computed once, with all its factors: many entries are made up of it.
@@ -126,6 +130,13 @@ impl<'a> Matrix<'a> {
             turn,
             droppable,
             turned: vec![None; n],
+            given: (order.iter())
+                .filter_map(|step| match *step {
+                    Pivoting::Pair(pair) => Some(pair),
+                    _ => None,
+                })
+                .collect(),
+            mobilities: BTreeMap::new(),
             apart: apart(&d.mass, g),
             whole,
         }

@@ -59,9 +59,12 @@ impl Matrix<'_> {
             return Err(format!("the coefficient of `{name}` in `{of}` vanishes"));
         }
         let largest = self.entry(j, j).reference(g);
-        if pair.massive {
-            self.weigh(j, c, mu, g);
-        }
+        self.know_mobilities(g);
+        let mobility = match pair.massive {
+            true => g.product(&[(mu, -1)]),
+            false => self.mobility(pair, g),
+        };
+        self.weigh(j, c, mobility, g);
         let mut of_j = self.take(j);
         of_j.remove(&c);
         let of_c = self.take(c);
@@ -104,16 +107,63 @@ impl Matrix<'_> {
         })
     }
 
-    /// Constraints remember that coordinate `i`, of `inertia`, was theirs, but for the one it is eliminated `with`: where what gives it
-    /// cannot move it, as a crank at its dead centre, all that is left of a constraint vanishes, and would else be compared with itself.
-    pub(super) fn weigh(&mut self, i: usize, with: usize, inertia: Id, g: &mut Graph) {
+    /// Constraints remember that coordinate `i`, which moves by `mobility`, was theirs, but for the one it is eliminated `with`: where what
+    /// gives it cannot move it, as a crank at its dead centre, all that is left of a constraint vanishes, and would else be compared with
+    /// itself.
+    pub(super) fn weigh(&mut self, i: usize, with: usize, mobility: Id, g: &mut Graph) {
+        if g.is_zero(mobility) {
+            return;
+        }
         let constraints = self.rows[i].range(self.n..).copied();
         let others: Vec<usize> = constraints.filter(|r| *r != with).collect();
         for r in others {
             let square = self.entry(r, i).square(g);
-            let size = g.div(square, inertia);
+            let size = g.mul(square, mobility);
             self.entry_mut(r, r).take_off_sized(&[], size);
         }
+    }
+
+    /// What stands for 1/μ of a coordinate without inertia: Σ (a_i/a)²/μ_i over the coordinates i that give it. At a dead centre these do
+    /// not move it, but others that they give (the height of a crank's pin, for its reach); so it has their part where its own varies.
+    fn mobility(&self, pair: Pair, g: &mut Graph) -> Id {
+        let parts = self.moves(pair, g).into_iter();
+        let parts = parts.map(|(i, part)| match g.uses(part).constant() {
+            true => (1.0, part),
+            false => (1.0, self.mobilities.get(&i).copied().unwrap_or(part)),
+        });
+        let parts: Vec<(f64, Id)> = parts.collect();
+        g.factored_sum(&parts)
+    }
+
+    /// Sums up how far coordinates move others, before any of these is gone.
+    fn know_mobilities(&mut self, g: &mut Graph) {
+        let given = std::mem::take(&mut self.given);
+        if given.iter().all(|pair| pair.massive) {
+            return;
+        }
+        for pair in given {
+            for (i, part) in self.moves(pair, g) {
+                if !g.uses(part).constant() {
+                    let sum = self.mobilities.get(&i).copied();
+                    let sum = sum.map_or(part, |sum| g.add(sum, part));
+                    self.mobilities.insert(i, sum);
+                }
+            }
+        }
+    }
+
+    /// (a_i/a)²/μ_i of the coordinates i with inertia that give this one.
+    fn moves(&self, pair: Pair, g: &mut Graph) -> Vec<(usize, Id)> {
+        let (j, c) = (pair.coordinate, pair.constraint);
+        let a = self.entry(c, j).open(g);
+        let others = self.rows[c].range(..self.n).copied().filter(|i| *i != j);
+        let others: Vec<usize> = others.collect();
+        let others = others.into_iter().filter_map(|i| {
+            let inertia = self.entry(i, i).open(g);
+            let square = self.entry(c, i).square(g);
+            (!g.is_zero(inertia)).then(|| (i, g.product(&[(square, 1), (inertia, -1), (a, -2)])))
+        });
+        others.collect()
     }
 
     /// What the substitution of a coordinate leaves of the entry of `r` and `s`, of which r is not before s.

@@ -233,7 +233,8 @@ impl Matrix<'_> {
     fn count_in(&mut self, rotation: Rotation, block: &Block, g: &mut Graph) {
         for (i, inertia) in rotation.coordinates.into_iter().zip(block.own) {
             if self.turned[i].is_none() {
-                self.weigh(i, rotation.constraint, inertia, g);
+                let mobility = g.product(&[(inertia, -1)]);
+                self.weigh(i, rotation.constraint, mobility, g);
             }
         }
     }
