@@ -29,7 +29,7 @@ fn energy_is_conserved() {
         if !spec.structure.conservative {
             return;
         }
-        let run = exactly(mechanism, start(model), model.duration());
+        let run = exactly(mechanism, start(model), model.duration);
         let drift = run.energy_drift();
         assert!(drift < 1e-9, "{}: energy drifts by {drift:e}", model.id);
     });
@@ -206,7 +206,7 @@ fn starts_are_consistent() {
             model.id
         );
         assert!(
-            model.duration() > 0.0 && !model.summary.is_empty(),
+            model.duration > 0.0 && !model.summary.is_empty(),
             "{}",
             model.id
         );

@@ -46,6 +46,10 @@ ukcore::multibody! {
     }
 }
 
+macro_rules! mechanisms {
+    ($($name:ident { $($body:tt)* })*) => { $(ukcore::multibody! { $name { $($body)* } })* };
+}
+
 fn guess(q: &[f64]) -> State {
     State {
         t: 0.0,
@@ -151,8 +155,30 @@ fn what_does_not_rest_is_told() {
     assert!(equilibrium(Free::default(), &guess(&[3.0]), &["y"]).is_err());
 }
 
-macro_rules! mechanisms {
-    ($($name:ident { $($body:tt)* })*) => { $(ukcore::multibody! { $name { $($body)* } })* };
+/// Forces that grow without bound towards a place, or fade on the way to nowhere, hold nothing; those that vanish at a place without
+/// stiffness do.
+#[test]
+fn pits_and_slopes_that_fade_are_no_rest_positions() {
+    mechanisms! {
+        Centre { coords { x, y } mass { x: 1.0, y: 1.0 } potential { -1.0 / norm([x, y]) } }
+        Pit { coords { x, y } mass { x: 1.0, y: 1.0 } potential { -1.0 / sq(x - 0.3), sq(y) } }
+        Fading { coords { x, y } mass { x: 1.0, y: 1.0 } potential { exp(-x), sq(y) } }
+        Shelf { coords { x, y } mass { x: 1.0, y: 1.0 } potential { atan(x), sq(y) } }
+        Flat { coords { x, y } mass { x: 1.0, y: 1.0 } potential { sq(sq(x)), sq(y) } }
+    }
+    let at = guess(&[1.0, 0.2]);
+    let found = [
+        equilibrium(Centre::default(), &at, &[]),
+        equilibrium(Pit::default(), &at, &[]),
+        equilibrium(Fading::default(), &at, &[]),
+        equilibrium(Shelf::default(), &at, &[]),
+    ];
+    for found in found {
+        let told = found.expect_err("it does not rest").to_string();
+        assert!(told.contains("`x` is still driven most"), "{told}");
+    }
+    let flat = equilibrium(Flat::default(), &at, &[]).expect("it rests at zero");
+    assert!(flat.state.q[0].abs() < 1e-5, "{flat:?}");
 }
 
 mechanisms! {

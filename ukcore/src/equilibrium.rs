@@ -46,6 +46,8 @@ const DIFFERENCE: f64 = 1e-6;
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
 const NOWHERE: f64 = 1e-12;
+/// Where a stiffness fades towards the place where forces vanish, as that of x⁴ at 0, this part of the coordinates is near it.
+const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
 /// it was asked to be: else it may have come to another branch.
 const BENT: f64 = 0.5;
@@ -86,10 +88,13 @@ pub fn equilibrium(
         });
     }
     let mut damping = 0.0_f64;
+    let first = here.force.norm();
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
-        let step = here.step(&stiffness).ok_or_else(unfound)?;
-        if here.is_balanced() || step.amax() <= NOWHERE * search.size {
+        let (step, loose) = here.step(&stiffness, search.size).ok_or_else(unfound)?;
+        // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
+        let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
+        if here.is_balanced() || still && loose <= BALANCED * here.parts {
             let stability = search.stability(&here.state, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
@@ -183,31 +188,40 @@ impl Place {
         0.5 * self.chord_from(before).dot(&(&self.push + &before.push))
     }
 
-    /// Newton's step; downhill, where forces have a potential. `None` for a stiffness that is not finite.
-    fn step(&self, stiffness: &DMatrix<f64>) -> Option<DVector<f64>> {
+    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where nothing is stiff that holds it near. `None` for a stiffness that is
+    /// not finite.
+    fn step(&self, stiffness: &DMatrix<f64>, size: f64) -> Option<(DVector<f64>, f64)> {
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
         // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
         let sizes = self.extents.iter().zip(self.units.iter());
         let most = sizes.fold(0.0, |s: f64, (extent, unit)| s.max(extent / unit));
         let least = (self.force.amax() / most).max(f64::MIN_POSITIVE);
-        let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
-            true => largest.max(least),
-            false => curvature.abs(),
-        };
         let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
-            let pairs = shares.iter_mut().zip(curvatures.iter());
-            pairs.for_each(|(share, curvature)| *share /= curved(*curvature));
-            shares
+            let mut loose = 0.0_f64;
+            for (share, curvature) in shares.iter_mut().zip(curvatures.iter()) {
+                let curved = match curvature.abs() <= FLAT * largest {
+                    true => {
+                        if share.abs() > NEAR * size * curvature.abs() {
+                            loose = loose.max(share.abs());
+                        }
+                        largest.max(least)
+                    }
+                    false => curvature.abs(),
+                };
+                *share /= curved;
+            }
+            (shares, loose)
         };
         if self.potential.is_none() {
             let svd = spectrum::singular(stiffness.clone(), true, true)?;
             let (u, v) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
-            return Some(v.tr_mul(&shared(u.tr_mul(&self.force), &svd.singular_values)));
+            let (shares, loose) = shared(u.tr_mul(&self.force), &svd.singular_values);
+            return Some((v.tr_mul(&shares), loose));
         }
         let eigen = spectrum::symmetric(symmetric(stiffness))?;
-        let shares = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
-        Some(eigen.eigenvectors * shares)
+        let (shares, loose) = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
+        Some((eigen.eigenvectors * shares, loose))
     }
 }
 

@@ -149,6 +149,18 @@ pub enum Error {
         /// The coordinate with the largest acceleration beside the error allowed in its velocity, and this acceleration, if there is one.
         fastest: Option<(String, f64)>,
     },
+    /// Rounding of accelerations makes more of a step than any motion could be told by.
+    #[error(
+        "rounding makes {share:.0e} of the motion in one step here, most of it along `{coordinate}`: coordinates are near a place where \
+         they tell little of it, as two angles about axes that all but fall in line, or forces all but cancel; take other coordinates, or \
+         a looser tolerance, whose steps go over the place"
+    )]
+    Rounding {
+        /// The coordinate whose acceleration is known least.
+        coordinate: String,
+        /// The estimated error of the step, as a share of the motion.
+        share: f64,
+    },
     /// Steps became so small that the time does not tell their ends apart: so late it is known no better.
     #[error(
         "steps of {step:.1e} are nothing beside the time, which is known to {rounding:.1e} so late; count it from a moment near the start, \

@@ -4,7 +4,10 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::zero::{PARTS, locate};
+use crate::zero::{PARTS, below, locate};
+
+/// Part of a step after which events are looked at first: a run that goes on from an event may begin a rounding behind its zero.
+const SOON: f64 = 1e-3;
 
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,9 +29,9 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// located to rounding on the interpolant of the step, at projected states.
 /// Where g is not a number, the run fails with an error that says so.
 ///
-/// Signs are compared at the ends of each eighth of a step: two zeros of g nearer to each other can cancel and be missed. An interpolant of
-/// a step that passed error control at order 8 (or 5) seldom has more than one or two extrema within it; where that is not enough,
-/// [`max_step`](crate::Simulation::max_step) makes the search finer.
+/// Signs are compared soon after the start of a step, at the ends of each eighth of it, and where g is nearest to zero between these: two
+/// zeros of g can be missed where g has more extrema within a quarter of a step. An interpolant of a step that passed error control at order
+/// 8 (or 5) seldom has more than one or two; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search finer.
 ///
 /// ```
 /// use ukcore::simulate::{Direction, Event};
@@ -62,6 +65,17 @@ impl Event {
     pub fn direction(mut self, direction: Direction) -> Self {
         self.direction = direction;
         self
+    }
+
+    /// The direction in which a zero is crossed from one value to the next, if it counts.
+    fn crosses(&self, before: f64, after: f64) -> Option<Direction> {
+        let direction = match before {
+            g if g < 0.0 && after >= 0.0 => Direction::Rising,
+            g if g > 0.0 && after <= 0.0 => Direction::Falling,
+            _ => return None,
+        };
+        let wanted = self.direction == Direction::Both || self.direction == direction;
+        wanted.then_some(direction)
     }
 
     /// Ends the run at the first crossing that counts.
@@ -165,25 +179,15 @@ impl Watch {
             return Ok(());
         }
         current.copy_from_slice(accepted);
+        let mut looks = looks(events, current, [t_old, t], states, state)?;
+        beside(events, current, t_old, &mut looks, states, state)?;
         let mut a = t_old;
-        for part in 1..=PARTS {
-            let b = if part == PARTS {
-                t
-            } else {
-                t_old + (t - t_old) * (part as f64 / PARTS as f64)
-            };
-            states.state(b, state);
+        for (b, values) in looks {
             let found = crossings.len();
-            for (i, event) in events.iter_mut().enumerate() {
+            for (i, after) in values.into_iter().enumerate() {
                 let before = current[i];
-                let after = evaluate(event, Sample::of(b, state))?;
                 current[i] = after;
-                let direction = match before {
-                    g if g < 0.0 && after >= 0.0 => Direction::Rising,
-                    g if g > 0.0 && after <= 0.0 => Direction::Falling,
-                    _ => continue,
-                };
-                if event.direction == Direction::Both || event.direction == direction {
+                if let Some(direction) = events[i].crosses(before, after) {
                     crossings.push(Crossing {
                         event: i,
                         t: b,
@@ -216,6 +220,87 @@ impl Watch {
     pub(crate) fn accept(&mut self) {
         std::mem::swap(&mut self.accepted, &mut self.current);
     }
+}
+
+/// Values of all events at a time.
+type Look = (f64, Vec<f64>);
+
+/// Looks at events along a step whose start they have the values `before` at, up to where a terminal one has changed its sign.
+fn looks(
+    events: &mut [Event],
+    before: &[f64],
+    [t_old, t]: [f64; 2],
+    states: &mut impl States,
+    state: &mut [f64],
+) -> Result<Vec<Look>, Error> {
+    let parts = (1..PARTS).map(|part| part as f64 / PARTS as f64);
+    let within = [SOON].into_iter().chain(parts);
+    let times = within.map(|part| t_old + (t - t_old) * part).chain([t]);
+    let mut looks: Vec<Look> = Vec::new();
+    for b in times {
+        let values = all(events, b, states, state)?;
+        let last = looks.last().map_or(before, |(_, values)| values);
+        let pairs = last.iter().zip(&values).zip(&*events);
+        let ends = |((a, b), event): ((&f64, &f64), &Event)| {
+            event.terminal && event.crosses(*a, *b).is_some()
+        };
+        let ended = pairs.map(ends).any(|ends| ends);
+        looks.push((b, values));
+        if ended {
+            break;
+        }
+    }
+    Ok(looks)
+}
+
+/// Adds a look where an event that is nearest to zero between others has changed its sign there.
+fn beside(
+    events: &mut [Event],
+    before: &[f64],
+    t_old: f64,
+    looks: &mut Vec<Look>,
+    states: &mut impl States,
+    state: &mut [f64],
+) -> Result<(), Error> {
+    let start = (t_old, before.to_vec());
+    let all_looks: Vec<&Look> = [&start].into_iter().chain(&*looks).collect();
+    let mut more = Vec::new();
+    for window in all_looks.windows(3) {
+        let &[(a, first), (_, middle), (b, last)] = window else {
+            continue;
+        };
+        for i in 0..events.len() {
+            let sign = middle[i].signum();
+            let [first, middle, last] = [first, middle, last].map(|values| sign * values[i]);
+            if !(middle > 0.0 && first > middle && last >= middle) {
+                continue;
+            }
+            let g = |t: f64| {
+                states.state(t, state);
+                Ok(sign * evaluate(&mut events[i], Sample::of(t, state))?)
+            };
+            more.extend(below(g, 0.0, *a, *b)?);
+        }
+    }
+    for b in more {
+        looks.push((b, all(events, b, states, state)?));
+    }
+    let way = |look: &Look| (look.0 - t_old).abs();
+    looks.sort_by(|a, b| way(a).total_cmp(&way(b)));
+    Ok(())
+}
+
+fn all(
+    events: &mut [Event],
+    t: f64,
+    states: &mut impl States,
+    state: &mut [f64],
+) -> Result<Vec<f64>, Error> {
+    states.state(t, state);
+    let values = events.iter_mut();
+    values
+        .map(|event| evaluate(event, Sample::of(t, state)))
+        .collect()
 }
 
 fn evaluate(event: &mut Event, at: Sample<'_>) -> Result<f64, Error> {

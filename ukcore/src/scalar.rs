@@ -11,7 +11,7 @@ pub use double::DoubleDouble;
 pub use slopes::{Slope, Sloped, Slopes};
 pub use tape::{Functions, Tape};
 
-/// A number type for emitted code: `f64`, `f32`, [`Dual`] for exact derivatives, [lanes](crate::lanes) of several numbers.
+/// A number type for emitted code: `f64`, `f32`, [`Dual`] for exact derivatives, lanes of several numbers.
 ///
 /// One straight-line program serves them all; constants enter through [`Scalar::from_f64`], branches through [`Scalar::select_le`].
 pub trait Scalar:

@@ -56,6 +56,51 @@ pub(crate) fn locate<E>(
     Ok(if f1 >= 0.0 { x1 } else { x2 })
 }
 
+/// Steps of a golden section.
+const NARROWINGS: usize = 48;
+
+/// A place between `a` and `b` where `g` is below `level`, by the golden section towards where it is least; none where it is no nearer to
+/// the level than it varies between the places at hand.
+pub(crate) fn below<E>(
+    mut g: impl FnMut(f64) -> Result<f64, E>,
+    level: f64,
+    a: f64,
+    b: f64,
+) -> Result<Option<f64>, E> {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut places = [a, b - golden * (b - a), a + golden * (b - a), b];
+    let mut values = [0.0; 4];
+    for (value, place) in values.iter_mut().zip(places) {
+        *value = g(place)?;
+    }
+    for _ in 0..NARROWINGS {
+        let lower = if values[2] < values[1] { 2 } else { 1 };
+        if values[lower] < level {
+            return Ok(Some(places[lower]));
+        }
+        let varies = values[0].max(values[3]) - values[lower];
+        if values[lower] - varies > level {
+            break;
+        }
+        if lower == 1 {
+            (places, values) = (
+                [places[0], 0.0, places[1], places[2]],
+                [values[0], 0.0, values[1], values[2]],
+            );
+            places[1] = places[3] - golden * (places[3] - places[0]);
+            values[1] = g(places[1])?;
+        } else {
+            (places, values) = (
+                [places[1], places[2], 0.0, places[3]],
+                [values[1], values[2], 0.0, values[3]],
+            );
+            places[2] = places[0] + golden * (places[3] - places[0]);
+            values[2] = g(places[2])?;
+        }
+    }
+    Ok(None)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -14,7 +14,7 @@ use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
 use crate::rounding::beside;
-use crate::scan::all_finite;
+use crate::scan::{all_finite, place_of_largest};
 use passage::Passage;
 use switching::Goal;
 
@@ -33,6 +33,10 @@ const CLEARLY: f64 = 1024.0;
 const STAGES: f64 = 1.5;
 /// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
 const SAMPLED: f64 = 2.5;
+
+/// Rounding may make so many times the tolerance of a step, or this share of the motion, before the run is no longer that motion.
+const MOST: f64 = 10.0;
+const LOST: f64 = 1e-6;
 
 /// Steps shorter than this share of the run would never end, and are asked whether they get anywhere; so many in a row are not by chance.
 const CREEPING: f64 = 1e-7;
@@ -269,6 +273,7 @@ impl Driver<'_> {
         let made = self.make(trial, rounding);
         self.survey(trial, made.is_ok())?;
         let error = made?;
+        self.weigh(error * rounding, trial.h)?;
         self.progress(trial)?;
         let interpolated = self.stay(trial, error)?;
         let (next, along) = self.show(trial, interpolated, error)?;
@@ -288,6 +293,29 @@ impl Driver<'_> {
         let error = self.scheme.close(&mut self.equations, trial);
         let late = small(error.map_err(Refusal::End)? / rounding)?;
         Ok(early.max(late))
+    }
+
+    /// Refuses a step whose `error`, in units of the tolerance, is rounding and too large a share of the motion.
+    fn weigh(&mut self, error: f64, h: f64) -> Result<(), Refusal> {
+        let share = error * self.tolerance.relative;
+        if error <= MOST || share <= LOST {
+            return Ok(());
+        }
+        // What it is here, and not some steps ago.
+        self.measure(0);
+        if error > self.noise * h.abs() {
+            return Err(Refusal::Inaccurate(error));
+        }
+        let s = self.equations.course.now.s;
+        let rounding = self.rounding(s).map_err(Refusal::Stage)?;
+        let y = self.scheme.start();
+        let floors = &self.settings.tolerance.floors[rounding.len()..];
+        let shares = rounding.iter().zip(floors).map(|(x, floor)| x / floor);
+        let shares: Vec<f64> = shares.collect();
+        let coordinate = self.equations.problem.coordinate(place_of_largest(&shares));
+        let error = Error::Rounding { coordinate, share };
+        let here = Sample::of(self.equations.course.now.t, y);
+        Err(Refusal::Undecided(Box::new(Trouble::new(here, error))))
     }
 
     /// Measures the rounding of accelerations, once in `seldom` attempts: what an error of ε in the time makes of them, and one of ε in all

@@ -148,6 +148,10 @@ pub(crate) trait Problem {
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
     /// Puts into `change`, by which a projection changes a state, what is left of it without what rounding makes of it.
     fn excess(&mut self, _at: Sample<'_>, _change: &mut [f64]) {}
+    /// The name of coordinate `i`.
+    fn coordinate(&self, i: usize) -> String {
+        format!("coordinate {i}")
+    }
     /// What ends a run that gets nowhere, since projections take back the way of each step; `at` is the end of such a step, not projected.
     fn stuck(&mut self, _at: Sample<'_>) -> Option<Error> {
         None

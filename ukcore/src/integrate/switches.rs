@@ -7,8 +7,8 @@
 //! A branch may end at its zero, as that of max(x, 0)^1.5 does: where y' has no value beyond it, the step follows its switches, as short as
 //! its error demands.
 //!
-//! That a function has left its branch shows at the end of a step, or, if it comes back before that, at a stage; the interpolant is made
-//! only then. So what stays unseen is what falls between all stages, as it does for the estimate of the error.
+//! That a function has left its branch shows at the end of a step, or, if it comes back before that, at a stage, or in what [`dips`] finds
+//! on the cubic through the ends of the step; the interpolant is made only then.
 
 use super::Problem;
 use super::dense::interpolate;
@@ -16,8 +16,10 @@ use super::sample::Sample;
 use crate::mechanism::Branch;
 use crate::zero::{PARTS, locate};
 
+mod dips;
 mod turn;
 
+pub(super) use dips::Seen;
 pub(super) use turn::Stuck;
 
 /// A zero nearer than this part of a step to its end is at its end.
@@ -48,6 +50,9 @@ pub(super) struct Switches {
     /// Distances into the branches at the start of a part of a step.
     before: Vec<f64>,
     state: Vec<f64>,
+    /// Parts of the step in hand at which functions may be outside of their branches, though nothing else shows it.
+    dips: Vec<f64>,
+    buffers: dips::Buffers,
     /// Whether an evaluation of the step in hand was outside of the branches held.
     pub(super) doubt: bool,
     /// The attempted step goes onto zeros of these.
@@ -63,6 +68,8 @@ impl Switches {
             values: vec![0.0; count],
             before: vec![0.0; count],
             state: vec![0.0; n],
+            dips: Vec::new(),
+            buffers: dips::Buffers::new(count, n),
             doubt: false,
             targets: Vec::new(),
         }
@@ -108,8 +115,10 @@ impl Switches {
         }
         let mut found = None;
         let mut a = 0.0;
-        for part in 1..=PARTS {
-            let b = part as f64 / PARTS as f64;
+        let mut parts = std::mem::take(&mut self.dips);
+        parts.extend((1..=PARTS).map(|part| part as f64 / PARTS as f64));
+        parts.sort_by(f64::total_cmp);
+        for b in parts {
             evaluate(b, &mut values);
             let mut at_once = Vec::new();
             let mut zeros: Vec<(f64, usize)> = Vec::new();

@@ -151,6 +151,10 @@ impl Problem for Run<'_> {
         self.recorder.projector.excess(at.t, at.q, at.v, change);
     }
 
+    fn coordinate(&self, i: usize) -> String {
+        self.solver.mechanism().spec().coords[i].to_owned()
+    }
+
     fn stuck(&mut self, at: Sample<'_>) -> Option<Error> {
         obstacles::stuck(self.solver.mechanism(), at)
     }

@@ -125,6 +125,13 @@ pub(crate) struct Pair {
     pub(crate) alone: bool,
 }
 
+impl Pair {
+    /// Whether both are among as many coordinates and constraints as come first in a system with `n` coordinates.
+    fn is_of(&self, (coordinates, constraints): (usize, usize), n: usize) -> bool {
+        self.coordinate < coordinates && self.constraint - n < constraints
+    }
+}
+
 /// An entry of A, or of what is left of it, that is the same at all states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coefficient {
@@ -254,8 +261,7 @@ pub(crate) fn eliminate(
         rows.map(|(id, s)| g.scale(sign / s, *id)).collect()
     };
     let rhs = scaled(1.0, &d.rhs, g);
-    let whole = !task.turned.is_empty();
-    let mut matrix = Matrix::new(d, names, &jacobian, &order.pivots, droppable, whole, g);
+    let mut matrix = Matrix::new(d, task, &jacobian, &order.pivots, droppable, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.

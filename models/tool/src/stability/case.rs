@@ -226,7 +226,7 @@ pub(super) struct Point {
     /// The error; none where it was refused.
     pub(super) error: Option<f64>,
     /// Name and message of the refusal.
-    pub(super) refusal: Option<(String, String)>,
+    pub(super) refusal: Option<(&'static str, String)>,
     #[serde(flatten)]
     pub(super) effort: Effort,
     /// Wall time, s.
@@ -300,10 +300,10 @@ impl Row<'_> {
     }
 
     /// The names of the errors with which values were refused, each once.
-    pub(super) fn refusals(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
+    pub(super) fn refusals(&self) -> Vec<&'static str> {
+        let mut names: Vec<&'static str> = Vec::new();
         for (name, _) in self.points.iter().filter_map(|p| p.refusal.as_ref()) {
-            if !names.contains(&name.as_str()) {
+            if !names.contains(name) {
                 names.push(name);
             }
         }
@@ -328,13 +328,29 @@ impl Row<'_> {
 }
 
 /// The name of an error, whatever place it carries.
-fn kind(error: &Error) -> String {
-    if let Error::At { source, .. } = error {
-        return kind(source);
+fn kind(error: &Error) -> &'static str {
+    match error {
+        Error::At { source, .. } => kind(source),
+        Error::Underdetermined { .. } => "Underdetermined",
+        Error::Inconsistent { .. } => "Inconsistent",
+        Error::OffConstraint { .. } => "OffConstraint",
+        Error::NotAssembled { .. } => "NotAssembled",
+        Error::NonFinite { .. } => "NonFinite",
+        Error::IndefiniteMass { .. } => "IndefiniteMass",
+        Error::InvalidSetting { .. } => "InvalidSetting",
+        Error::UnknownName { .. } => "UnknownName",
+        Error::WrongLength { .. } => "WrongLength",
+        Error::StepTooSmall { .. } => "StepTooSmall",
+        Error::Rounding { .. } => "Rounding",
+        Error::TooLate { .. } => "TooLate",
+        Error::TooManySteps { .. } => "TooManySteps",
+        Error::Chattering { .. } => "Chattering",
+        Error::NoDirection { .. } => "NoDirection",
+        Error::Jump { .. } => "Jump",
+        Error::Singular { .. } => "Singular",
+        Error::DeadCentre { .. } => "DeadCentre",
+        _ => "Error",
     }
-    let whole = format!("{error:?}");
-    let end = whole.find(|c: char| !c.is_alphanumeric());
-    whole[..end.unwrap_or(whole.len())].to_owned()
 }
 
 #[cfg(test)]

@@ -3,9 +3,11 @@
 use super::{Driver, Refusal};
 use crate::error::Error;
 use crate::integrate::course::Trial;
-use crate::integrate::sample::Sample;
-use crate::integrate::switches::{Leaving, Stuck};
+use crate::integrate::switches::{Leaving, Seen, Stuck};
 use crate::mechanism::Branch;
+
+/// A step with less than this share of the error granted may be as long as it is for lack of any force: switches are looked at all along.
+const FREE: f64 = 1e-4;
 
 /// A step onto the zero of a switch.
 pub(super) struct Goal {
@@ -37,15 +39,19 @@ impl Driver<'_> {
         if equations.switches.is_empty() {
             return Ok(false);
         }
-        let end = Sample::of(trial.end.t, self.scheme.end());
-        equations.switches.look(equations.problem, end);
-        if !equations.switches.doubt {
-            return Ok(false);
+        let t0 = equations.course.t0;
+        let time = |theta: f64| t0 + trial.start.s + theta * trial.h;
+        // A method without an estimate has no error that would tell.
+        let free = error < FREE && self.scheme.error().is_some();
+        let (ends, problem) = (self.scheme.states(), &mut *equations.problem);
+        match (equations.switches).dips(problem, time, trial.h, ends, free) {
+            _ if equations.switches.doubt => {}
+            Seen::Whole => return Ok(false),
+            Seen::Dips => {}
+            Seen::Rough => return Err(Refusal::End(None)),
         }
         let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;
-        let t0 = equations.course.t0;
-        let time = |theta: f64| t0 + trial.start.s + theta * trial.h;
         let coefficients = self.scheme.dense();
         match equations
             .switches

@@ -4,7 +4,7 @@ use super::dropping::reciprocal;
 use super::entry::Entry;
 use super::pair::Double;
 use super::rotation::{Turned, apart};
-use super::{Divisor, Pair, Pivoting};
+use super::{Divisor, Pair, Pivoting, Task};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,7 +33,9 @@ pub(super) struct Matrix<'a> {
     droppable: BTreeSet<usize>,
     /// Of what took the place of two coordinates, how many rotations before it were not scaled.
     pub(super) turned: Vec<Option<usize>>,
-    /// Coordinates with the constraints that they are eliminated with, until the first of them is.
+    /// How many coordinates and constraints are the mechanism's: they come first.
+    pub(super) own: (usize, usize),
+    /// Coordinates of the mechanism with its constraints that they are eliminated with, until the first of them is.
     pub(super) given: Vec<Pair>,
     /// Of each coordinate, [how far](Matrix::mobility) those move that it gives, where that varies.
     pub(super) mobilities: BTreeMap<usize, Id>,
@@ -84,14 +86,13 @@ pub(super) struct Single {
 }
 
 impl<'a> Matrix<'a> {
-    /// K = [M Aᵀ; A 0] with the given A.
+    /// K = [M Aᵀ; A 0] of a task, with the given A.
     pub(super) fn new(
         d: &Dynamics,
-        names: &'a [String],
+        task: &Task<'a>,
         jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
         droppable: BTreeSet<usize>,
-        whole: bool,
         g: &Graph,
     ) -> Self {
         let n = d.force.len();
@@ -107,6 +108,11 @@ impl<'a> Matrix<'a> {
                 rows[b].insert(a);
             }
         }
+        let given = order.iter().filter_map(|step| match *step {
+            Pivoting::Pair(pair) => Some(pair).filter(|pair| pair.is_of(task.own, n)),
+            _ => None,
+        });
+        let given = given.collect();
         let mut turn = vec![0; size];
         for (at, step) in order.iter().enumerate() {
             match *step {
@@ -121,7 +127,7 @@ impl<'a> Matrix<'a> {
         }
         Matrix {
             n,
-            names,
+            names: task.names,
             hints: Vec::new(),
             entries,
             rows,
@@ -130,15 +136,11 @@ impl<'a> Matrix<'a> {
             turn,
             droppable,
             turned: vec![None; n],
-            given: (order.iter())
-                .filter_map(|step| match *step {
-                    Pivoting::Pair(pair) => Some(pair),
-                    _ => None,
-                })
-                .collect(),
+            own: task.own,
+            given,
             mobilities: BTreeMap::new(),
             apart: apart(&d.mass, g),
-            whole,
+            whole: !task.turned.is_empty(),
         }
     }
 

@@ -62,7 +62,9 @@ impl Matrix<'_> {
         self.know_mobilities(g);
         let mobility = match pair.massive {
             true => g.product(&[(mu, -1)]),
-            false => self.mobility(pair, g),
+            false if pair.is_of(self.own, self.n) => self.mobility(pair, g),
+            // Of the definition of a velocity all is counted where that is.
+            false => g.zero(),
         };
         self.weigh(j, c, mobility, g);
         let mut of_j = self.take(j);
