@@ -1,5 +1,5 @@
-//! Switches and events whose functions are beyond their zeros for a moment only, on a way that long steps go over: contact with a stiff stop
-//! after free flight, pulses of a force that is zero else, bounces shorter than a step.
+//! Switches and events whose functions are beyond their zeros for a moment only, on a way that long steps go over: contact with a stiff
+//! stop after free flight, pulses of a force that is zero else, bounces shorter than a step.
 
 use ukcore::simulate::Direction;
 use ukcore::{Event, Mechanism, Method, Simulation, State};

@@ -188,8 +188,8 @@ impl Place {
         0.5 * self.chord_from(before).dot(&(&self.push + &before.push))
     }
 
-    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where nothing is stiff that holds it near. `None` for a stiffness that is
-    /// not finite.
+    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where nothing
+    /// stiff holds it near. `None` for a stiffness that is not finite.
     fn step(&self, stiffness: &DMatrix<f64>, size: f64) -> Option<(DVector<f64>, f64)> {
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on

@@ -30,8 +30,9 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// Where g is not a number, the run fails with an error that says so.
 ///
 /// Signs are compared soon after the start of a step, at the ends of each eighth of it, and where g is nearest to zero between these: two
-/// zeros of g can be missed where g has more extrema within a quarter of a step. An interpolant of a step that passed error control at order
-/// 8 (or 5) seldom has more than one or two; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search finer.
+/// zeros of g can be missed where it has more extrema within a quarter of a step. The interpolant of a step that passed error control
+/// at order 8 (or 5) seldom has more than one or two; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search
+/// finer.
 ///
 /// ```
 /// use ukcore::simulate::{Direction, Event};

@@ -193,8 +193,8 @@ fn cubic(theta: f64, h: f64, [old, new]: [&[f64]; 2], state: &mut [f64]) {
     }
 }
 
-/// Whether a function with these values at the start of a step, soon after, shortly before its end and there falls first and rises last, and
-/// may get to zero between.
+/// Whether a function with these values at the start of a step, soon after, shortly before its end and there falls first and rises last,
+/// and may get to zero between.
 fn may_dip([a, soon, late, b]: [f64; 4], range: f64) -> bool {
     let (falls, rises) = ((soon - a) / END, (b - late) / END);
     if falls >= 0.0 || rises <= 0.0 {
