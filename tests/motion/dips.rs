@@ -45,6 +45,18 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// A body on a road with one bump, over which its height pushes it aside.
+    Road {
+        params { w = 0.05, h = 0.02 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        let s = max(0.0, 1.0 - sq((x - 5.0) / w));
+        holonomic { road: y = h * s * s * s }
+        force { z: 1e4 * y }
+    }
+}
+
+ukcore::multibody! {
     /// A ball; y points up.
     Ball {
         params { g = 9.81 }
@@ -149,6 +161,30 @@ fn pulses_of_a_force_that_is_zero_else_are_all_felt() {
     let pulse = 2.0 * f / w * ((1.0 - c * c).sqrt() - c * c.acos());
     let off = |end: &State| (end.v[0] / (32.0 * pulse) - 1.0).abs();
     check(&Pulses::default(), &at(&[0.0], &[0.0]), 10.0, off);
+}
+
+#[test]
+fn a_bump_that_a_step_would_leap_is_felt() {
+    // Energy keeps ẋ² + ẏ² at 1, so ż is ∫ 10⁴ y √(1 + y'²) dx: by Simpson's rule.
+    let (w, h, parts) = (0.05_f64, 0.02_f64, 2000);
+    let push = |k: usize| {
+        let u = 2.0 * k as f64 / parts as f64 - 1.0;
+        let s = 1.0 - u * u;
+        let (y, slope) = (h * s * s * s, -6.0 * h * s * s * u / w);
+        1e4 * y * slope.hypot(1.0)
+    };
+    let weight = |k: usize| match k {
+        0 => 1.0,
+        k if k == parts => 1.0,
+        k if k % 2 == 1 => 4.0,
+        _ => 2.0,
+    };
+    let sum: f64 = (0..=parts).map(|k| weight(k) * push(k)).sum();
+    let aside = sum * 2.0 * w / parts as f64 / 3.0;
+    let start = at(&[0.0; 3], &[1.0, 0.0, 0.0]);
+    check(&Road::default(), &start, 10.0, |end| {
+        (end.v[2] / aside - 1.0).abs()
+    });
 }
 
 #[test]

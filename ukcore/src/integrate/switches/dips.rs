@@ -123,6 +123,15 @@ impl Switches {
         let outside = |k: usize| self.inside(k, known[k]) < 0.0 && !self.targets.contains(&k);
         self.doubt |= (0..count).any(outside);
         let mut rough = false;
+        if self.branches.contains(&Branch::Followed) {
+            // What is followed changes its sign once, and not long before the end: else there is more to it than the estimate of the
+            // error, made at some places, can tell.
+            look(NEAR, values);
+            let soon = values.clone();
+            look(0.5, values);
+            let changes = |k: usize| soon[k] * values[k] < 0.0;
+            rough = (0..count).any(|k| self.branches[k] == Branch::Followed && changes(k));
+        }
         for k in 0..count {
             if self.branches[k] == Branch::Followed || self.targets.contains(&k) {
                 continue;
