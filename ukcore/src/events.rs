@@ -241,11 +241,11 @@ fn looks(
     for b in times {
         let values = all(events, b, states, state)?;
         let last = looks.last().map_or(before, |(_, values)| values);
-        let pairs = last.iter().zip(&values).zip(&*events);
+        let mut pairs = last.iter().zip(&values).zip(&*events);
         let ends = |((a, b), event): ((&f64, &f64), &Event)| {
             event.terminal && event.crosses(*a, *b).is_some()
         };
-        let ended = pairs.map(ends).any(|ends| ends);
+        let ended = pairs.any(ends);
         looks.push((b, values));
         if ended {
             break;

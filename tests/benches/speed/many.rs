@@ -108,8 +108,8 @@ fn sum<const M: usize>(
 ) {
     let factors = terms.map(|(_, c)| Wide::splat(h * c));
     let rows = terms.map(|(stage, _)| &k[stage]);
-    for i in 0..4 * N {
-        let mut sum = factors[0] * rows[0][i];
+    for (i, first) in rows[0].iter().enumerate() {
+        let mut sum = factors[0] * *first;
         for j in 1..M {
             sum += factors[j] * rows[j][i];
         }

@@ -283,7 +283,7 @@ impl<'a> Group<'a> {
 
     /// Members that meet what lanes do not get across go on alone, from their start.
     fn watch(&mut self) {
-        let alive = self.members.alive.clone();
+        let alive = self.members.alive;
         let states = self.stepper.states();
         let [old, new] = states.map(|y| &y[y.len() / 2..]);
         let along = reduce(old, new, |old, new| old * new, |s, x| s + x);
