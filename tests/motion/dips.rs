@@ -1,6 +1,7 @@
 //! Switches and events whose functions are beyond their zeros for a moment only, on a way that long steps go over: contact with a stiff
 //! stop after free flight, pulses of a force that is zero else, bounces shorter than a step.
 
+use tests::at;
 use ukcore::simulate::Direction;
 use ukcore::{Event, Mechanism, Method, Simulation, State};
 
@@ -84,14 +85,6 @@ fn check<M: Mechanism>(mechanism: &M, start: &State, end: f64, off: impl Fn(&Sta
             let most = (1e3 * tolerance).max(1e-10);
             assert!(off < most, "{method}, {tolerance:e}: off by {off:e}");
         }
-    }
-}
-
-fn at(q: &[f64], v: &[f64]) -> State {
-    State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
     }
 }
 

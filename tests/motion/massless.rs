@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use tests::less_turns;
+use tests::{at, less_turns};
 use ukcore::simulate::Sample;
 use ukcore::{Mechanism, Method, Prepared, Simulation, State};
 
@@ -128,6 +128,27 @@ fn off(kind: usize, [a, b]: [f64; 2], s: Sample<'_>) -> f64 {
     less_turns(rocker - crossed(crank, a, b)[0][1]).abs()
 }
 
+/// What is wrong with a run to `end`, if it fails or a sample is `off` by more than some errors of a step.
+fn carried(
+    (mechanism, start): (Prepared, State),
+    end: f64,
+    (method, tolerance): (Method, f64),
+    off: impl Fn(Sample<'_>) -> f64,
+) -> Option<String> {
+    let run = Simulation::new(mechanism)
+        .start(start)
+        .method(method)
+        .tolerance(tolerance);
+    let told = match run.max_steps(10_000).every(0.05).until(end) {
+        Ok(run) => {
+            let off = run.samples().map(off).fold(0.0, f64::max);
+            (off > (30.0 * tolerance).max(1e-7)).then(|| format!("off by {off:.1e}"))
+        }
+        Err(failure) => Some(failure.to_string()),
+    };
+    told.map(|told| format!("{method}, {tolerance:e}: {told}"))
+}
+
 #[test]
 fn parts_without_mass_pass_change_points_in_the_branch_they_came_on() {
     let runs = [
@@ -149,23 +170,9 @@ fn parts_without_mass_pass_change_points_in_the_branch_they_came_on() {
             for kind in 0..3 {
                 let w = 1.1 + 0.37 * (i + 2 * k + kind) as f64;
                 let (mechanism, start) = chain(kind, rods, 0.4 + 0.1 * k as f64, w);
-                let run = Simulation::new(mechanism)
-                    .start(start)
-                    .method(method)
-                    .tolerance(tolerance);
-                let label = format!("kind {kind}, rods {rods:?}, {w}/s, {method}, {tolerance:e}");
-                match run.max_steps(10_000).every(0.05).until(4.0) {
-                    Ok(run) => {
-                        let off = run
-                            .samples()
-                            .map(|s| off(kind, rods, s))
-                            .fold(0.0, f64::max);
-                        if off > (30.0 * tolerance).max(1e-7) {
-                            wrong.push(format!("{label}: off by {off:.1e}"));
-                        }
-                    }
-                    Err(failure) => wrong.push(format!("{label}: {failure}")),
-                }
+                let off = |s: Sample<'_>| off(kind, rods, s);
+                let told = carried((mechanism, start), 4.0, (method, tolerance), off);
+                wrong.extend(told.map(|told| format!("kind {kind}, rods {rods:?}, {w}/s, {told}")));
             }
         }
     }
@@ -182,37 +189,23 @@ fn points_without_mass_that_angles_give_are_carried_over_dead_centres() {
             for i in 0..4 {
                 let (th, w) = (0.3_f64, 1.9 + 0.83 * i as f64 + 0.11 * k as f64);
                 let (c, s) = (th.cos(), th.sin());
-                let pins = State {
-                    t: 0.0,
-                    q: vec![th, th, c, s, 2.0 + c, s],
-                    v: vec![w, w, -w * s, w * c, -w * s, w * c],
-                };
-                let slider = State {
-                    t: 0.0,
-                    q: vec![th, -th, c, s, 2.0 * c],
-                    v: vec![w, -w, -w * s, w * c, -2.0 * w * s],
-                };
+                let pins = at(
+                    &[th, th, c, s, 2.0 + c, s],
+                    &[w, w, -w * s, w * c, -w * s, w * c],
+                );
+                let slider = at(
+                    &[th, -th, c, s, 2.0 * c],
+                    &[w, -w, -w * s, w * c, -2.0 * w * s],
+                );
                 let both = [
                     (Pins::default().prepared(), pins, 1.0),
                     (Slider::default().prepared(), slider, -1.0),
                 ];
                 for (mechanism, start, sign) in both {
                     let name = mechanism.spec().name;
-                    let run = Simulation::new(mechanism)
-                        .start(start)
-                        .method(method)
-                        .tolerance(tolerance);
-                    let label = format!("{name}, {w}/s, {method}, {tolerance:e}");
-                    match run.max_steps(10_000).every(0.05).until(5.0) {
-                        Ok(run) => {
-                            let off = run.samples().map(|s| (s.q[1] - sign * s.q[0]).abs());
-                            let off = off.fold(0.0, f64::max);
-                            if off > (30.0 * tolerance).max(1e-7) {
-                                wrong.push(format!("{label}: off by {off:.1e}"));
-                            }
-                        }
-                        Err(failure) => wrong.push(format!("{label}: {failure}")),
-                    }
+                    let off = |s: Sample<'_>| (s.q[1] - sign * s.q[0]).abs();
+                    let told = carried((mechanism, start), 5.0, (method, tolerance), off);
+                    wrong.extend(told.map(|told| format!("{name}, {w}/s, {told}")));
                 }
             }
         }

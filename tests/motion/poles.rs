@@ -1,5 +1,6 @@
 //! Motions just past places where coordinates tell little of them: rounding there must not become the motion.
 
+use tests::at;
 use ukcore::{Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -56,18 +57,9 @@ fn rounding_beside_a_pole_does_not_become_the_motion() {
     ];
     let mut through = 0;
     for rate in [1e-5, 1e-7, 1e-8, 1e-9, 1e-10] {
-        let state = |q: [f64; 2], v: [f64; 2]| State {
-            t: 0.0,
-            q: q.to_vec(),
-            v: v.to_vec(),
-        };
-        let swing = state([1.5, 0.0], [0.0, rate]);
+        let swing = at(&[1.5, 0.0], &[0.0, rate]);
         through += check(Angles::default(), swing, 5.0, &runs);
-        let turn = state([0.3, 0.0], [rate, 6.0]);
-        let turn = State {
-            q: vec![turn.q[1], turn.q[0]],
-            ..turn
-        };
+        let turn = at(&[0.0, 0.3], &[rate, 6.0]);
         through += check(Cross::default(), turn, 1.5, &runs);
     }
     // Most get there.

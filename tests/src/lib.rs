@@ -15,7 +15,18 @@ pub use random::Random;
 
 use std::f64::consts::{PI, TAU};
 
+use ukcore::State;
 use ukcore::model::{Entry, StartOptions};
+
+/// The state (q, q̇) at t = 0.
+#[must_use]
+pub fn at(q: &[f64], v: &[f64]) -> State {
+    State {
+        t: 0.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+    }
+}
 
 /// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.
 ///

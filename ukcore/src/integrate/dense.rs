@@ -75,3 +75,21 @@ pub(super) fn interpolate(theta: f64, coefficients: &[f64], y: &mut [f64]) {
         }
     }
 }
+
+/// Coordinates and velocities at a part of a step of size `h` between two states (q, q̇), on the cubics through both.
+pub(crate) fn between(
+    part: f64,
+    h: f64,
+    [[q0, v0], [q1, v1]]: [[&[f64]; 2]; 2],
+    [q, v]: [&mut [f64]; 2],
+) {
+    let rest = 1.0 - part;
+    for i in 0..q.len() {
+        let change = q1[i] - q0[i];
+        // The chord, and what the velocities at both ends add to it.
+        let (a, b) = (v0[i] * h - change, change - v1[i] * h);
+        let (bend, slope) = (a * rest + b * part, change / h);
+        q[i] = q0[i] + part * change + part * rest * bend;
+        v[i] = slope + ((1.0 - 2.0 * part) * bend + part * rest * (b - a)) / h;
+    }
+}

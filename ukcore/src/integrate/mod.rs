@@ -46,7 +46,7 @@ use crate::spec::SwitchSpec;
 pub(crate) use control::StepSize;
 #[cfg(feature = "ensemble")]
 pub(crate) use course::{Course, Trial};
-pub(crate) use dense::{Interpolant, Segment};
+pub(crate) use dense::{Interpolant, Segment, between};
 use sample::Sample;
 #[cfg(feature = "ensemble")]
 pub(crate) use stepper::{Rates, Stepper};

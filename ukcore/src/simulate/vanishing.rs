@@ -15,8 +15,8 @@ use super::independence::{Independence, counting};
 use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
 use crate::dense::Rows;
-use crate::integrate::Method;
 use crate::integrate::sample::Sample;
+use crate::integrate::{Method, between};
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::scan::dot;
@@ -564,22 +564,13 @@ impl RowWatch {
 
 /// The state at a part of the step from `old` to `new`, on the cubics through both.
 fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> State {
-    let h = new.t - old.t;
-    let rest = 1.0 - part;
+    let (n, h) = (old.q.len(), new.t - old.t);
     let mut state = State {
         t: old.t + part * h,
-        q: Vec::with_capacity(old.q.len()),
-        v: Vec::with_capacity(old.q.len()),
+        q: vec![0.0; n],
+        v: vec![0.0; n],
     };
-    for i in 0..old.q.len() {
-        let (v0, v1, change) = (old.v[i], new.v[i], new.q[i] - old.q[i]);
-        // The chord, and what the velocities at both ends add to it.
-        let (a, b) = (v0 * h - change, change - v1 * h);
-        let (bend, slope) = (a * rest + b * part, change / h);
-        state.q.push(old.q[i] + part * change + part * rest * bend);
-        state
-            .v
-            .push(slope + ((1.0 - 2.0 * part) * bend + part * rest * (b - a)) / h);
-    }
+    let ends = [old, new].map(|end| [end.q, end.v]);
+    between(part, h, ends, [&mut state.q, &mut state.v]);
     state
 }

@@ -4,8 +4,8 @@
 use std::convert::Infallible;
 
 use super::Switches;
-use crate::integrate::Problem;
 use crate::integrate::sample::Sample;
+use crate::integrate::{Problem, between};
 use crate::mechanism::Branch;
 use crate::zero::below;
 
@@ -104,7 +104,9 @@ impl Switches {
             if theta == 1.0 {
                 state.copy_from_slice(new);
             } else {
-                cubic(theta, h, [old, new], state);
+                let n = state.len() / 2;
+                let (q, v) = state.split_at_mut(n);
+                between(theta, h, [old, new].map(|y| [&y[..n], &y[n..]]), [q, v]);
             }
             problem.switching(Sample::of(time(theta), state), values);
         };
@@ -181,27 +183,6 @@ fn is_rough(count: usize, at: impl Fn(usize) -> f64, range: f64) -> bool {
     extrema > EXTREMA && least < WITHIN * (most - least)
 }
 
-/// The state at the part `theta` of a step of size `h` between two states, by the cubic through coordinates and velocities at both.
-fn cubic(theta: f64, h: f64, [old, new]: [&[f64]; 2], state: &mut [f64]) {
-    let n = old.len() / 2;
-    let left = 1.0 - theta;
-    let [rise, out, back] = [
-        theta * theta * (3.0 - 2.0 * theta),
-        theta * left * left,
-        -theta * theta * left,
-    ];
-    let [fast, from, to] = [
-        6.0 * theta * left,
-        left * (1.0 - 3.0 * theta),
-        theta * (3.0 * theta - 2.0),
-    ];
-    for i in 0..n {
-        let (way, [v, w]) = (new[i] - old[i], [old[n + i], new[n + i]]);
-        state[i] = old[i] + rise * way + h * (out * v + back * w);
-        state[n + i] = fast * way / h + from * v + to * w;
-    }
-}
-
 /// Whether a function with these values at the start of a step, soon after, shortly before its end and there falls first and rises last,
 /// and may get to zero between.
 fn may_dip([a, soon, late, b]: [f64; 4], range: f64) -> bool {
@@ -210,9 +191,10 @@ fn may_dip([a, soon, late, b]: [f64; 4], range: f64) -> bool {
         return false;
     }
     let at = |theta: f64| {
-        let mut state = [0.0; 2];
-        cubic(theta, 1.0, [&[a, falls], &[b, rises]], &mut state);
-        state[0]
+        let [mut g, mut rate] = [[0.0]; 2];
+        let ends = [[&[a][..], &[falls]], [&[b], &[rises]]];
+        between(theta, 1.0, ends, [&mut g, &mut rate]);
+        g[0]
     };
     let least = (1..8)
         .map(|k| at(f64::from(k) / 8.0))
