@@ -181,6 +181,43 @@ fn pits_and_slopes_that_fade_are_no_rest_positions() {
     assert!(flat.state.q[0].abs() < 1e-5, "{flat:?}");
 }
 
+/// Forces vanish at an inflection of the potential and drive on what is beyond it, from whatever side the search comes.
+#[test]
+fn an_inflection_of_the_potential_is_no_stable_rest() {
+    mechanisms! {
+        Inflection { coords { x } mass { x: 1.0 } potential { x.powi(3) } }
+        Fifth { params { at = 0.0 } coords { x } mass { x: 1.0 } potential { (x - at).powi(5) } }
+        Tilted { coords { x, y } mass { x: 1.0, y: 2.0 } holonomic { line: x = y } potential { x.powi(3) } }
+        Fourth { coords { x } mass { x: 1.0 } potential { sq(sq(x)) } }
+        Uneven { params { k = 1e-6 } coords { x } mass { x: 1.0 } potential { 0.5 * k * sq(x) + x.powi(3) } }
+    }
+    fn stability<M: Mechanism>(mechanism: M, q: &[f64]) -> Stability {
+        let found = equilibrium(mechanism, &guess(q), &[]);
+        found
+            .unwrap_or_else(|e| panic!("{} from {q:?}: {e}", M::SPEC.name))
+            .stability
+    }
+    for scale in [1e-3, 0.1, 1.0, 30.0] {
+        assert_eq!(
+            stability(Inflection::default(), &[scale]),
+            Stability::Unstable,
+            "{scale}"
+        );
+        assert_eq!(
+            stability(Tilted::default(), &[scale; 2]),
+            Stability::Unstable,
+            "{scale}"
+        );
+        assert_eq!(
+            stability(Fourth::default(), &[scale]),
+            Stability::Stable,
+            "{scale}"
+        );
+    }
+    assert_eq!(stability(Fifth::default(), &[0.1]), Stability::Unstable);
+    assert_eq!(stability(Uneven::default(), &[0.1]), Stability::Stable);
+}
+
 mechanisms! {
     Spring { params { k = 4.0 } coords { x } mass { x: 1.0 } potential { 0.5 * k * sq(x) } }
     Swing { coords { a } kinetic { 0.5 * sq(dot(a)) } potential { -9.81 * cos(a) } }

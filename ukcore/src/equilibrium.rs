@@ -46,6 +46,8 @@ const DIFFERENCE: f64 = 1e-6;
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
 const NOWHERE: f64 = 1e-12;
+/// So far aside, as a part of the coordinates, a stiffness is looked at once more: farther than the search ends beside the place, and near.
+const ASIDE: f64 = 1e-9;
 /// Where a stiffness fades towards the place where forces vanish, as that of x⁴ at 0, this part of the coordinates is near it.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
@@ -95,7 +97,7 @@ pub fn equilibrium(
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
         let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
         if here.is_balanced() || still && loose <= BALANCED * here.parts {
-            let stability = search.stability(&here.state, &stiffness)?;
+            let stability = search.stability(&here, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
                 stability,
@@ -173,6 +175,11 @@ impl Place {
             (Some(_), Some(_)) if self.work_since(before) > 0.0 => true,
             _ => now < then || self.is_balanced(),
         }
+    }
+
+    /// `step` as a change of the coordinates.
+    fn displacement(&self, step: &DVector<f64>) -> DVector<f64> {
+        (&self.basis * step).component_mul(&self.units)
     }
 
     /// The way from one place to the other, in units of the coordinates.
@@ -274,11 +281,21 @@ impl Search {
 
     /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.
     fn moved(&mut self, from: &Place, step: &DVector<f64>) -> Result<Place, Error> {
-        let mut state = from.state.clone();
-        let change = (&from.basis * step).component_mul(&from.units);
+        let change = from.displacement(step);
         let shares = change.iter().zip(&from.extents);
         let most = shares.fold(0.0, |most: f64, (d, extent)| most.max(d.abs() / extent));
         let share = if most > 1.0 { most.recip() } else { 1.0 };
+        self.displaced(from, &change, share)
+    }
+
+    /// The place where `share` of `change` leads.
+    fn displaced(
+        &mut self,
+        from: &Place,
+        change: &DVector<f64>,
+        share: f64,
+    ) -> Result<Place, Error> {
+        let mut state = from.state.clone();
         let pairs = state.q.iter_mut().zip(change.iter());
         pairs.for_each(|(q, d)| *q += share * d);
         self.place(state)
@@ -315,17 +332,27 @@ impl Search {
         Ok(out)
     }
 
+    /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it
+    /// at 0, the search ends on the side from which it comes.
+    fn turns(&mut self, here: &Place, direction: &DVector<f64>, stiffness: f64) -> bool {
+        [ASIDE, -ASIDE].into_iter().any(|share| {
+            let there = self.displaced(here, &here.displacement(direction), share * self.size);
+            let aside = there.and_then(|there| self.stiffness(&there));
+            aside.is_ok_and(|k| (direction.transpose() * k * direction)[0] < -stiffness)
+        })
+    }
+
     /// What the stiffness tells, and where nothing is held the modes.
-    fn stability(&self, state: &State, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
+    fn stability(&mut self, here: &Place, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
         if self.held.is_empty() {
-            let modes = modes(&self.mech, state)?;
+            let modes = modes(&self.mech, &here.state)?;
             if modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);
             }
         }
         let largest = stiffness.amax();
         let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
-        let least = curved.eigenvalues.min();
+        let (softest, least) = curved.eigenvalues.argmin();
         let flat = largest
             * if self.held.is_empty() {
                 FLAT
@@ -334,7 +361,13 @@ impl Search {
             };
         let gyroscopic = self.held.is_empty() && !self.mech.spec().structure.conservative;
         Ok(match least {
-            x if x > flat => Stability::Stable,
+            x if x > flat => {
+                let direction = curved.eigenvectors.column(softest).into_owned();
+                match self.turns(here, &direction, x) {
+                    true => Stability::Unstable,
+                    false => Stability::Stable,
+                }
+            }
             // Other forces may hold what the stiffness drives on; that nothing grows has been seen.
             x if x >= -flat || gyroscopic => Stability::Neutral,
             _ => Stability::Unstable,

@@ -329,7 +329,7 @@ fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
         ),
         _ => (
             format!("steps fell to {step:.1e}, with which the run does not get on"),
-            "the tolerance be too tight, or forces so stiff that no explicit method does, but `Method::Radau5`",
+            "the tolerance be too tight, or forces too stiff for an explicit method, for which `Method::Radau5` is",
         ),
     };
     let fastest = fastest.map_or(String::new(), |(name, acceleration)| {

@@ -350,6 +350,11 @@ pub(super) fn declared(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
 
 /// The name of coordinates: a key, or `link[i].angle` of a body, or `leg[i].knee.angle` of a part's.
 pub(super) fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+    if input.peek(syn::token::Bracket) {
+        let message =
+            "an entry belongs to one coordinate or family; write one for each: `x: …, y: …`";
+        return Err(input.error(message));
+    }
     let mut key = key(input, diag)?;
     while input.peek(Token![.]) {
         let _: Token![.] = input.parse()?;

@@ -430,6 +430,9 @@ cases! {
     coords_in_upper_case: "«Coords» { x } mass { x: 1.0 } holonomic { c: x = 1.0 }" => "unknown section `Coords`";
     negative_constant_in_use: "const N: usize = «0 - 1»; coords { x[N] } mass { for i in 0..N { x[i]: 1.0 } }" => "`N` is a `usize`, which cannot be negative";
     syntax_error_in_coords: "coords { x y , «,» z } mass { x: 1.0, y: 1.0, z: 1.0 }" => "expected identifier";
+    force_on_a_list: "coords { x, y } mass { x: 1.0, y: 1.0 } force { «[»x, y]: 1.0 }" => "an entry belongs to one coordinate or family";
+    nonideal_on_a_list: "coords { x, y } mass { x: 1.0, y: 1.0 } nonideal { «[»x, y]: [1.0, 2.0] }" => "an entry belongs to one coordinate or family";
+    mass_of_a_list: "coords { x, y } mass { «[»x, y]: 1.0 }" => "an entry belongs to one coordinate or family";
     unknown_name_in_a_function: "coords { x } mass { x: 1.0 } force { x: recip(«y») + 1.0 / «z» }" => "unknown name `y`", "unknown name `z`";
     // Associated constants.
     constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
