@@ -2,7 +2,7 @@
 //!
 //! Subexpressions of parameters become [`Symbol::Prepared`]. Products are split for that, and sums: of ½ ρ c S v |v| the part
 //! ½ ρ c S is one prepared number, and a division by a parameter becomes a multiplication. Signs stay outside, so that a and −a are one
-//! prepared number.
+//! prepared number; so do numbers by which some of those that read a product multiply it, and others do not.
 
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
@@ -46,16 +46,22 @@ pub(crate) fn hoist(
     let shapes = system.drawing.shapes.iter();
     let mut drawing: Vec<Id> = shapes.flat_map(|shape| &shape.numbers).copied().collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
-    let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
     let reported = outputs.iter_mut().chain(&mut integrands);
-    places.extend(reported.chain(&mut switches));
-    places.extend(&mut drawing);
+    let reported = reported.chain(&mut switches).chain(&mut drawing);
+    // As they are computed: one beside the others.
+    let mut places: [Vec<&mut Id>; 3] = [
+        dynamics.values_mut().collect(),
+        reported.collect(),
+        Vec::new(),
+    ];
     if let Ok(straight) = &mut straight {
-        places.extend(straight.values_mut());
+        places[2].extend(straight.values_mut());
     }
-    let roots: Vec<Id> = places.iter().map(|id| **id).collect();
+    let roots = places
+        .each_ref()
+        .map(|places| places.iter().map(|id| **id).collect());
     let mut pass = Pass::new(&mut system.graph, &roots);
-    for (place, root) in places.into_iter().zip(&roots) {
+    for (place, root) in places.into_iter().flatten().zip(roots.iter().flatten()) {
         *place = pass.value(*root);
     }
     let (known, values) = (pass.known, pass.values);
@@ -87,28 +93,52 @@ type Factors = Vec<(Id, i32)>;
 /// Terms with their coefficients.
 type Terms = Vec<(f64, Id)>;
 
+/// What `id` reads, with the sizes of its coefficients.
+fn read_by(g: &Graph, id: Id) -> Vec<(f64, Id)> {
+    let of = |(k, id): &(Num, Id)| (k.get().abs(), *id);
+    match g.node(id) {
+        Node::Sum(_, terms) => terms.iter().map(of).collect(),
+        Node::Scale(k, inner) => vec![of(&(*k, *inner))],
+        _ => g.operands(id).into_iter().map(|id| (1.0, id)).collect(),
+    }
+}
+
 struct Pass<'g> {
     g: &'g mut Graph,
     /// New node of each old one that varies.
     known: Map<Id, Id>,
-    /// How many nodes read each old one.
+    /// How many nodes read each old one, where most do.
     readers: Map<Id, usize>,
+    /// The size of the coefficient that all do with, where there is one.
+    alike: Map<Id, Option<f64>>,
     values: Vec<Id>,
     places: Map<Id, usize>,
 }
 
 impl<'g> Pass<'g> {
-    fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
-        let order = g.reachable(roots);
+    fn new(g: &'g mut Graph, roots: &[Vec<Id>]) -> Self {
+        let order = g.reachable(&roots.concat());
         let mut readers: Map<Id, usize> = Map::default();
-        let read = order.iter().flat_map(|id| g.operands(*id));
-        for id in read.chain(roots.iter().copied()) {
-            *readers.entry(id).or_insert(0) += 1;
+        let mut alike: Map<Id, Option<f64>> = Map::default();
+        for roots in roots {
+            let mut here: Map<Id, usize> = Map::default();
+            let reached = g.reachable(roots);
+            let read = reached.into_iter().flat_map(|id| read_by(g, id));
+            for (size, id) in read.chain(roots.iter().map(|id| (1.0, *id))) {
+                *here.entry(id).or_insert(0) += 1;
+                let common = alike.entry(id).or_insert(Some(size));
+                *common = common.filter(|known| *known == size);
+            }
+            for (id, count) in here {
+                let most = readers.entry(id).or_insert(0);
+                *most = count.max(*most);
+            }
         }
         let mut pass = Pass {
             g,
             known: Map::default(),
             readers,
+            alike,
             values: Vec::new(),
             places: Map::default(),
         };
@@ -231,10 +261,17 @@ impl<'g> Pass<'g> {
         out
     }
 
-    /// k · id, with k > 0 in the prepared part of a product that nothing else reads.
+    /// Whether the product `id` may be k times as large: nothing else reads it, or all do k times, and it has a prepared part for that.
+    fn takes(&self, k: f64, id: Id, factors: &[(Id, i32)]) -> bool {
+        let mut parts = factors.iter();
+        self.readers[&id] == 1
+            || self.alike[&id] == Some(k) && parts.any(|(f, _)| self.g.uses(*f).constant())
+    }
+
+    /// k · id, with k > 0 in the prepared part of a product that may take it.
     fn scaled(&mut self, k: f64, id: Id) -> Id {
         match self.g.node(id).clone() {
-            Node::Product(factors) if k != 1.0 && self.readers[&id] == 1 => {
+            Node::Product(factors) if k != 1.0 && self.takes(k, id, &factors) => {
                 self.product(k, &factors)
             }
             _ => {
