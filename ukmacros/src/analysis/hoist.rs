@@ -46,22 +46,16 @@ pub(crate) fn hoist(
     let shapes = system.drawing.shapes.iter();
     let mut drawing: Vec<Id> = shapes.flat_map(|shape| &shape.numbers).copied().collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
+    let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
     let reported = outputs.iter_mut().chain(&mut integrands);
-    let reported = reported.chain(&mut switches).chain(&mut drawing);
-    // As they are computed: one beside the others.
-    let mut places: [Vec<&mut Id>; 3] = [
-        dynamics.values_mut().collect(),
-        reported.collect(),
-        Vec::new(),
-    ];
+    places.extend(reported.chain(&mut switches));
+    places.extend(&mut drawing);
     if let Ok(straight) = &mut straight {
-        places[2].extend(straight.values_mut());
+        places.extend(straight.values_mut());
     }
-    let roots = places
-        .each_ref()
-        .map(|places| places.iter().map(|id| **id).collect());
+    let roots: Vec<Id> = places.iter().map(|id| **id).collect();
     let mut pass = Pass::new(&mut system.graph, &roots);
-    for (place, root) in places.into_iter().flatten().zip(roots.iter().flatten()) {
+    for (place, root) in places.into_iter().zip(&roots) {
         *place = pass.value(*root);
     }
     let (known, values) = (pass.known, pass.values);
@@ -107,7 +101,7 @@ struct Pass<'g> {
     g: &'g mut Graph,
     /// New node of each old one that varies.
     known: Map<Id, Id>,
-    /// How many nodes read each old one, where most do.
+    /// How many nodes read each old one.
     readers: Map<Id, usize>,
     /// The size of the coefficient that all do with, where there is one.
     alike: Map<Id, Option<f64>>,
@@ -116,23 +110,15 @@ struct Pass<'g> {
 }
 
 impl<'g> Pass<'g> {
-    fn new(g: &'g mut Graph, roots: &[Vec<Id>]) -> Self {
-        let order = g.reachable(&roots.concat());
+    fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
+        let order = g.reachable(roots);
         let mut readers: Map<Id, usize> = Map::default();
         let mut alike: Map<Id, Option<f64>> = Map::default();
-        for roots in roots {
-            let mut here: Map<Id, usize> = Map::default();
-            let reached = g.reachable(roots);
-            let read = reached.into_iter().flat_map(|id| read_by(g, id));
-            for (size, id) in read.chain(roots.iter().map(|id| (1.0, *id))) {
-                *here.entry(id).or_insert(0) += 1;
-                let common = alike.entry(id).or_insert(Some(size));
-                *common = common.filter(|known| *known == size);
-            }
-            for (id, count) in here {
-                let most = readers.entry(id).or_insert(0);
-                *most = count.max(*most);
-            }
+        let read = order.iter().flat_map(|id| read_by(g, *id));
+        for (size, id) in read.chain(roots.iter().map(|id| (1.0, *id))) {
+            *readers.entry(id).or_insert(0) += 1;
+            let common = alike.entry(id).or_insert(Some(size));
+            *common = common.filter(|known| *known == size);
         }
         let mut pass = Pass {
             g,
