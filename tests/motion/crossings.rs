@@ -1,7 +1,7 @@
 //! Starts in positions where branches of the motion cross: at rest and not pushed, or along a branch, they go on; pushed along none of
 //! them, or with a velocity along none, the position is named.
 
-use tests::assert_close;
+use tests::{assert_close, at_rest};
 use ukcore::{Ensemble, Error, Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -62,14 +62,6 @@ ukcore::multibody! {
 }
 
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
-
-fn at_rest(q: &[f64]) -> State {
-    State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: vec![0.0; q.len()],
-    }
-}
 
 fn source(error: &Error) -> (f64, &Error) {
     match error {

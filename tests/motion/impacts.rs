@@ -1,7 +1,7 @@
 //! Impacts on springs so hard that the implicit method could step over them: a body bounces back with the energy that it came with.
 
-use tests::assert_close;
-use ukcore::{Mechanism, Method, Simulation, State, Trajectory};
+use tests::{assert_close, at_rest};
+use ukcore::{Mechanism, Method, Simulation, Trajectory};
 
 ukcore::multibody! {
     /// A ball above a floor that is a spring; with `d` not 0 it takes energy out.
@@ -54,12 +54,7 @@ fn run<M: Mechanism>(
     q: &[f64],
     until: f64,
 ) -> Trajectory {
-    let start = State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: vec![0.0; q.len()],
-    };
-    let run = Simulation::new(model).start(start).method(method);
+    let run = Simulation::new(model).start(at_rest(q)).method(method);
     let run = run.tolerance(tolerance).until(until);
     run.unwrap_or_else(|e| panic!("{tolerance}: {}", e.error))
 }

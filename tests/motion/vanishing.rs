@@ -1,6 +1,7 @@
 //! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it
 //! it turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
 
+use tests::at;
 use ukcore::simulate::Sample;
 use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State, Trajectory};
 
@@ -460,13 +461,8 @@ fn starts_at_rest_beside_a_singular_position_keep_their_branch_or_are_refused() 
 /// Lanes look for rows that vanish as a run of its own does.
 #[test]
 fn members_of_an_ensemble_pass_nodes_and_end_before_apexes() {
-    let state = |q: &[f64], v: &[f64]| State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: v.to_vec(),
-    };
     let ovals = [2.1, 3.3, 4.7, 5.9, 7.97].map(|speed| {
-        let start = state(&[1.0, 0.0], &[0.0, speed]);
+        let start = at(&[1.0, 0.0], &[0.0, speed]);
         (Oval::default(), start)
     });
     let ends = Ensemble::new(ovals.to_vec()).until(2.0);
@@ -481,7 +477,7 @@ fn members_of_an_ensemble_pass_nodes_and_end_before_apexes() {
         }
     }
     let cones = [[-1.3, 0.1, 1.3], [-1.3, 0.0, 1.3]];
-    let cones = cones.map(|v| (Cone::default(), state(&[1.0, 0.0, -1.0], &v)));
+    let cones = cones.map(|v| (Cone::default(), at(&[1.0, 0.0, -1.0], &v)));
     let [beside, through] = <[_; 2]>::try_from(Ensemble::new(cones.to_vec()).until(2.0))
         .unwrap_or_else(|_| panic!("two members"));
     assert!(beside.is_ok(), "{beside:?}");

@@ -28,6 +28,12 @@ pub fn at(q: &[f64], v: &[f64]) -> State {
     }
 }
 
+/// The state (q, 0) at t = 0.
+#[must_use]
+pub fn at_rest(q: &[f64]) -> State {
+    at(q, &vec![0.0; q.len()])
+}
+
 /// A mechanism as tools handle it has all that a declaration can say: starts that can be assembled, units, a picture of each start.
 ///
 /// # Panics

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use models::{DoubleScottRussell, KnifeEdge, Model};
-use tests::assert_close;
+use tests::{assert_close, at_rest};
 use ukcore::{Mechanism, Redundant, Simulation, State, diagnose, diagnose_along};
 
 ukcore::multibody! {
@@ -34,14 +34,6 @@ ukcore::multibody! {
     }
 }
 
-fn at(q: &[f64]) -> State {
-    State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: vec![0.0; q.len()],
-    }
-}
-
 fn redundant(name: &str, follows_from: &[&str]) -> Redundant {
     let follows_from = follows_from.iter().map(|name| (*name).to_owned());
     Redundant {
@@ -52,7 +44,7 @@ fn redundant(name: &str, follows_from: &[&str]) -> Redundant {
 
 #[test]
 fn what_follows_from_what_is_told() {
-    let found = diagnose(Sum::default(), &at(&[0.6, -0.8, 1.2, -1.6, 0.5])).unwrap();
+    let found = diagnose(Sum::default(), &at_rest(&[0.6, -0.8, 1.2, -1.6, 0.5])).unwrap();
     assert_eq!((found.rank, found.degrees_of_freedom), (3, 2));
     assert_eq!(found.redundant, [redundant("both", &["upper", "lower"])]);
     assert_eq!(found.undetermined, ["upper", "lower", "both"]);
@@ -82,7 +74,7 @@ fn the_margin_is_that_of_the_angle_between_rows() {
     }
     for angle in [0.0, 0.4, 1.3, std::f64::consts::FRAC_PI_2] {
         let (s, c) = f64::sin_cos(angle);
-        let found = diagnose(Double::default(), &at(&[1.0, 0.0, 1.0 + c, s])).unwrap();
+        let found = diagnose(Double::default(), &at_rest(&[1.0, 0.0, 1.0 + c, s])).unwrap();
         let expected = (1.0 - c / 2.0_f64.sqrt()).sqrt();
         assert_close("margin", found.margin, expected, 1e-12);
         if c > 0.1 {
@@ -113,7 +105,7 @@ fn models_have_the_freedoms_counted_by_hand() {
 fn a_singular_position_is_told_from_redundancy() {
     let folding = Folding::default();
     // Upright: both rows are (0, 2y, 0).
-    let found = diagnose(&folding, &at(&[0.0, 1.0, 0.0])).unwrap();
+    let found = diagnose(&folding, &at_rest(&[0.0, 1.0, 0.0])).unwrap();
     assert_eq!((found.rank, found.degrees_of_freedom), (1, 2));
     assert_eq!(
         (&found.only_here[..], found.margin),
@@ -126,7 +118,7 @@ fn a_singular_position_is_told_from_redundancy() {
         "{found}"
     );
     let c = 0.3_f64.cos();
-    let beside = diagnose(&folding, &at(&[c, 0.3_f64.sin(), 2.0 * c])).unwrap();
+    let beside = diagnose(&folding, &at_rest(&[c, 0.3_f64.sin(), 2.0 * c])).unwrap();
     assert!(
         beside.only_here.is_empty() && beside.margin > 0.5,
         "{beside}"
@@ -141,7 +133,7 @@ fn a_run_is_nearest_to_a_singular_position_where_its_rows_are() {
         let (y, x) = (0.1 * f64::from(k)).sin_cos();
         State {
             t: f64::from(k),
-            ..at(&[x, y, 2.0 * x])
+            ..at_rest(&[x, y, 2.0 * x])
         }
     };
     // The crank is most upright at 1.6.
@@ -210,7 +202,7 @@ fn a_door_is_as_far_from_singular_positions_at_any_angle_and_in_any_axes() {
             let turned = times([c, 0.0, 0.0, s], own);
             let (y, x) = angle.sin_cos();
             let q = [&[w / 2.0 * x, w / 2.0 * y, 0.0][..], &turned].concat();
-            let found = diagnose(&door, &at(&q)).unwrap();
+            let found = diagnose(&door, &at_rest(&q)).unwrap();
             assert_eq!((found.rank, found.degrees_of_freedom), (6, 1));
             assert_close("margin", found.margin, expected, 1e-9);
             let rows = ["hinge.z", "hinge.tilt0", "hinge.tilt1"];
@@ -244,7 +236,7 @@ fn folding(l: f64, angle: f64) -> State {
     let body = |x: f64, z: f64, [e0, e2]: [f64; 2]| [x, 0.0, z, e0, 0.0, e2, 0.0];
     let crank = body(l / 2.0 * c, l / 2.0 * s, [half_c, -half_s]);
     let rod = body(1.5 * l * c, l / 2.0 * s, [half_c, half_s]);
-    at(&[crank, rod, body(2.0 * l * c, 0.0, [1.0, 0.0])].concat())
+    at_rest(&[crank, rod, body(2.0 * l * c, 0.0, [1.0, 0.0])].concat())
 }
 
 /// Upright, crank and rod may turn together; before and behind, the margin is in proportion to the angle.
@@ -331,6 +323,6 @@ fn an_idle_spin_is_told_once_and_is_no_other_way_to_put_a_linkage_together() {
     }
     // What hangs on one body alone is there to move.
     let door = Door::default();
-    let shut = at(&[door.w / 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    let shut = at_rest(&[door.w / 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
     assert!(diagnose(&door, &shut).unwrap().idle.is_empty());
 }

@@ -1,7 +1,7 @@
 //! States where everything cancels, and the rounding that is left is neither a contradiction nor a violation: redundant constraints
 //! at rest, and coordinates that are zero.
 
-use tests::{Random, assert_all_close, largest};
+use tests::{Random, assert_all_close, at_rest, largest};
 use ukcore::solver::Formula;
 use ukcore::{Simulation, Solver, SolverOptions, State, assemble};
 
@@ -120,12 +120,7 @@ fn coordinates_may_be_zero() {
             // Along the circle, to first order.
             let size = pendulum.ax.hypot(pendulum.ay);
             let q = [-pendulum.ay, pendulum.ax].map(|d| displacement * d / size);
-            let state = State {
-                t: 0.0,
-                q: q.to_vec(),
-                v: vec![0.0; 2],
-            };
-            let state = assemble(&pendulum, &state, &[])
+            let state = assemble(&pendulum, &at_rest(&q), &[])
                 .unwrap_or_else(|e| panic!("{pendulum:?} at {q:?}: {e}"));
             assert_all_close("q", &state.q, &q, 1e-14 + displacement * displacement);
             let run = Simulation::new(pendulum.clone())

@@ -1,6 +1,6 @@
 //! Modes about rest positions and steady motions, against closed forms.
 
-use tests::{assert_all_close, assert_close};
+use tests::{assert_all_close, assert_close, at_rest};
 use ukcore::{Error, Mechanism, Mode, State, modes};
 
 ukcore::multibody! {
@@ -43,14 +43,6 @@ ukcore::multibody! {
     }
 }
 
-fn rest(q: &[f64]) -> State {
-    State {
-        t: 0.0,
-        q: q.to_vec(),
-        v: vec![0.0; q.len()],
-    }
-}
-
 fn frequencies(modes: &[Mode]) -> Vec<f64> {
     modes.iter().map(|mode| mode.frequency).collect()
 }
@@ -59,7 +51,7 @@ fn frequencies(modes: &[Mode]) -> Vec<f64> {
 #[test]
 fn a_row_of_masses_has_its_closed_form() {
     let row = Row::default();
-    let found = modes(&row, &rest(&[0.0; Row::N])).expect("at rest");
+    let found = modes(&row, &at_rest(&[0.0; Row::N])).expect("at rest");
     let count = Row::N + 1;
     let angle = |k: usize| std::f64::consts::PI * k as f64 / count as f64;
     let expected: Vec<f64> = (1..count)
@@ -85,8 +77,8 @@ fn damping_is_told() {
         c: 1.1,
         ..Row::default()
     };
-    let found = modes(&row, &rest(&[0.0; Row::N])).expect("at rest");
-    let free = modes(Row::default(), &rest(&[0.0; Row::N])).expect("at rest");
+    let found = modes(&row, &at_rest(&[0.0; Row::N])).expect("at rest");
+    let free = modes(Row::default(), &at_rest(&[0.0; Row::N])).expect("at rest");
     let decay = 0.5 * row.c / row.m;
     for (mode, free) in found.iter().zip(&free) {
         assert_close("growth", mode.growth, -decay, 1e-12);
@@ -99,7 +91,7 @@ fn damping_is_told() {
         c: 40.0,
         ..Row::default()
     };
-    let found = modes(&stiff, &rest(&[0.0; Row::N])).expect("at rest");
+    let found = modes(&stiff, &at_rest(&[0.0; Row::N])).expect("at rest");
     let over = found.iter().filter(|mode| mode.frequency == 0.0).count();
     assert_eq!(found.len() + found.len() - over, 2 * Row::N);
     assert!(
@@ -114,7 +106,7 @@ fn constraints_have_no_modes_of_their_own() {
     let double = Double::default();
     let w = |sign: f64| ((2.0 + sign * 2.0_f64.sqrt()) * double.g / double.l).sqrt();
     let l = double.l;
-    let hanging = modes(&double, &rest(&[0.0, -l, 0.0, -2.0 * l, 0.0])).expect("at rest");
+    let hanging = modes(&double, &at_rest(&[0.0, -l, 0.0, -2.0 * l, 0.0])).expect("at rest");
     assert_all_close(
         "frequencies",
         &frequencies(&hanging),
@@ -124,7 +116,7 @@ fn constraints_have_no_modes_of_their_own() {
     // The angle of the upper rod moves with its end.
     let [x1, turn] = [Double::X1, Double::TURN].map(|j| hanging[0].shape[j][0]);
     assert_close("turn", turn, x1 / l, 1e-10);
-    let standing = modes(&double, &rest(&[0.0, l, 0.0, 2.0 * l, 0.0])).expect("at rest");
+    let standing = modes(&double, &at_rest(&[0.0, l, 0.0, 2.0 * l, 0.0])).expect("at rest");
     let growths: Vec<f64> = standing.iter().map(|mode| mode.growth).collect();
     assert_all_close(
         "growth",
@@ -162,14 +154,14 @@ fn a_sleigh_runs_straight_with_its_weight_in_front() {
 fn what_does_not_stay_has_no_modes() {
     let double = Double::default();
     let l = double.l;
-    let aslant = rest(&[0.6 * l, -0.8 * l, 0.6 * l, -1.8 * l, 0.6_f64.asin()]);
+    let aslant = at_rest(&[0.6 * l, -0.8 * l, 0.6 * l, -1.8 * l, 0.6_f64.asin()]);
     let Err(Error::InvalidSetting { what, reason }) = modes(&double, &aslant) else {
         panic!("it falls")
     };
     assert_eq!(what, "state");
     assert!(reason.contains("accelerates by"), "{reason}");
     ukcore::multibody! { Falling { coords { y } mass { y: 1.0 } potential { 9.81 * y } } }
-    assert!(modes(Falling::default(), &rest(&[0.0])).is_err());
+    assert!(modes(Falling::default(), &at_rest(&[0.0])).is_err());
 }
 
 ukcore::multibody! {
@@ -267,7 +259,7 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
     // In seconds, in years, in nanoseconds.
     for pace in [1.0_f64, 1e-10, 1e9] {
         let k = 3.0 * pace * pace;
-        let adrift = modes(Adrift { k }, &rest(&[1.0, 0.0])).unwrap();
+        let adrift = modes(Adrift { k }, &at_rest(&[1.0, 0.0])).unwrap();
         let adrift = values(adrift);
         assert_eq!(adrift[..2], [[0.0; 2]; 2]);
         assert_all_close(
@@ -277,7 +269,7 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
             1e-12 * pace,
         );
         let (weak, c) = (1e-8 * pace * pace, 2.0 * pace);
-        let found = values(modes(Syrup { k, weak, c }, &rest(&[0.0; 2])).unwrap());
+        let found = values(modes(Syrup { k, weak, c }, &at_rest(&[0.0; 2])).unwrap());
         // λ² + c λ + weak = 0, of which the smaller root is the other one's share of the product.
         let fast = -0.5 * (c + (c * c - 4.0 * weak).sqrt());
         assert_eq!(
@@ -328,7 +320,7 @@ pendulums!(Eight, 8);
 /// The modes of `copies` of a mechanism are those of one, each so often, and in each of these another copy moves alone.
 fn modes_of_one(mechanism: &impl Mechanism, one: &[Mode], copies: usize) {
     let mechanism = ukcore::mechanism::Prepared::from(mechanism);
-    let guess = rest(&vec![0.5; 2 * copies]);
+    let guess = at_rest(&vec![0.5; 2 * copies]);
     let place = ukcore::equilibrium(&mechanism, &guess, &[]).unwrap();
     assert_eq!(place.stability, ukcore::Stability::Stable);
     let found = modes(&mechanism, &place.state).unwrap();
@@ -363,7 +355,7 @@ fn copies_have_the_modes_of_one() {
             c,
             ..One::default()
         };
-        let place = ukcore::equilibrium(&one, &rest(&[0.5; 2]), &[]).unwrap();
+        let place = ukcore::equilibrium(&one, &at_rest(&[0.5; 2]), &[]).unwrap();
         let found = modes(&one, &place.state).unwrap();
         assert!(found.iter().all(|mode| (mode.growth < 0.0) == (c > 0.0)));
         let [first, second] = [place.state.q[0], place.state.q[0] + place.state.q[1]];
@@ -440,7 +432,7 @@ fn coinciding_frequencies_do_not_grow() {
             ..Threads::default()
         };
         let q = g.map(|x| [threads.l * x / size; Threads::N]).concat();
-        let found = ukcore::equilibrium(&threads, &rest(&q), &[]).expect("it hangs");
+        let found = ukcore::equilibrium(&threads, &at_rest(&q), &[]).expect("it hangs");
         assert_eq!(found.stability, ukcore::Stability::Stable, "{g:?}, {c}");
         let found = modes(&threads, &found.state).expect("at rest");
         assert_eq!(found.len(), 2 * Threads::N);
@@ -471,7 +463,7 @@ ukcore::multibody! {
 
 #[test]
 fn friction_without_a_direction_at_rest_is_told_with_what_helps() {
-    let still = rest(&[0.0; 2]);
+    let still = at_rest(&[0.0; 2]);
     let errors = [
         modes(Rubbed::default(), &still).map(|_| ()),
         ukcore::equilibrium(Rubbed::default(), &still, &[]).map(|_| ()),

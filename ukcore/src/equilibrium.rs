@@ -335,8 +335,9 @@ impl Search {
     /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it
     /// at 0, the search ends on the side from which it comes.
     fn turns(&mut self, here: &Place, direction: &DVector<f64>, stiffness: f64) -> bool {
+        let change = here.displacement(direction);
         [ASIDE, -ASIDE].into_iter().any(|share| {
-            let there = self.displaced(here, &here.displacement(direction), share * self.size);
+            let there = self.displaced(here, &change, share * self.size);
             let aside = there.and_then(|there| self.stiffness(&there));
             aside.is_ok_and(|k| (direction.transpose() * k * direction)[0] < -stiffness)
         })

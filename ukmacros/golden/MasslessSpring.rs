@@ -113,11 +113,11 @@ const _: () = {
             prepared: &[
                 ("k1", "k1"),
                 ("k2", "k2"),
-                ("m", "m"),
                 ("half_m", "0.5*m"),
                 ("per_k1_and_k2", "1/(k1 + k2)"),
                 ("per_m_k2", "k2/m"),
                 ("per_m_sq_k2_per_k1_and_k2", "sq(k2)/(m*(k1 + k2))"),
+                ("m", "m"),
                 ("k1_and_k2", "k1 + k2"),
                 (
                     "safe_balance",
@@ -334,13 +334,13 @@ const _: () = {
             prepared[0] = k1;
             prepared[1] = k2;
             let per_m = m.recip();
-            prepared[2] = m;
-            prepared[3] = lit(0.5) * m;
+            prepared[2] = lit(0.5) * m;
             let k1_plus_k2 = k1 + k2;
             let per_k1_plus_k2 = k1_plus_k2.recip();
-            prepared[4] = per_k1_plus_k2;
-            prepared[5] = k2 * per_m;
-            prepared[6] = k2 * k2 * per_m * per_k1_plus_k2;
+            prepared[3] = per_k1_plus_k2;
+            prepared[4] = k2 * per_m;
+            prepared[5] = k2 * k2 * per_m * per_k1_plus_k2;
+            prepared[6] = m;
             prepared[7] = k1_plus_k2;
             let sq_k1_plus_k2 = k1_plus_k2 * k1_plus_k2;
             let safe_x = S::select_le(
@@ -401,7 +401,7 @@ const _: () = {
                 );
                 return;
             }
-            let [k1, k2, m, _, _, _, _, k1_and_k2, _] = *ukcore::emitted::exact::<
+            let [k1, k2, _, _, _, _, m, k1_and_k2, _] = *ukcore::emitted::exact::<
                 S,
                 9,
             >(prepared, "prepared");
@@ -424,7 +424,7 @@ const _: () = {
             mass: &mut [S],
         ) {
             let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-            let [_, _, m, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, _, _, _, _, _, m, _, _] = *ukcore::emitted::exact::<
                 S,
                 9,
             >(prepared, "prepared");
@@ -514,7 +514,7 @@ const _: () = {
             q: &[S],
             v: &[S],
         ) -> ukcore::Energy<S> {
-            let [k1, k2, _, half_m, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [k1, k2, half_m, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 9,
             >(prepared, "prepared");
@@ -597,7 +597,7 @@ const _: () = {
                     &mut [&mut out[..]],
                 );
             }
-            let [k1, k2, _, _, per_k1_and_k2, per_m_k2, per_m_sq_k2_per_k1_and_k2, _,
+            let [k1, k2, _, per_k1_and_k2, per_m_k2, per_m_sq_k2_per_k1_and_k2, _, _,
             safe_balance] = *ukcore::emitted::exact::<S, 9>(prepared, "prepared");
             let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let joint_minus_x = joint - x;
@@ -617,7 +617,7 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [_, _, _, _, per_k1_and_k2, _, _, _, safe_balance] = *ukcore::emitted::exact::<
+            let [_, _, _, per_k1_and_k2, _, _, _, _, safe_balance] = *ukcore::emitted::exact::<
                 S,
                 9,
             >(prepared, "prepared");

@@ -97,14 +97,19 @@ fn read_by(g: &Graph, id: Id) -> Vec<(f64, Id)> {
     }
 }
 
+/// How a node is read.
+struct Read {
+    times: usize,
+    /// The size of the coefficient that all do with, where there is one.
+    by: Option<f64>,
+}
+
 struct Pass<'g> {
     g: &'g mut Graph,
     /// New node of each old one that varies.
     known: Map<Id, Id>,
-    /// How many nodes read each old one.
-    readers: Map<Id, usize>,
-    /// The size of the coefficient that all do with, where there is one.
-    alike: Map<Id, Option<f64>>,
+    /// How each old one is read.
+    read: Map<Id, Read>,
     values: Vec<Id>,
     places: Map<Id, usize>,
 }
@@ -112,24 +117,23 @@ struct Pass<'g> {
 impl<'g> Pass<'g> {
     fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
         let order = g.reachable(roots);
-        let mut readers: Map<Id, usize> = Map::default();
-        let mut alike: Map<Id, Option<f64>> = Map::default();
-        let read = order.iter().flat_map(|id| read_by(g, *id));
-        for (size, id) in read.chain(roots.iter().map(|id| (1.0, *id))) {
-            *readers.entry(id).or_insert(0) += 1;
-            let common = alike.entry(id).or_insert(Some(size));
-            *common = common.filter(|known| *known == size);
+        let mut read: Map<Id, Read> = Map::default();
+        let readings = order.iter().flat_map(|id| read_by(g, *id));
+        for (size, id) in readings.chain(roots.iter().map(|id| (1.0, *id))) {
+            let by = Some(size);
+            let known = read.entry(id).or_insert(Read { times: 0, by });
+            known.times += 1;
+            known.by = known.by.filter(|by| *by == size);
         }
         let mut pass = Pass {
             g,
             known: Map::default(),
-            readers,
-            alike,
+            read,
             values: Vec::new(),
             places: Map::default(),
         };
         for id in order {
-            if !pass.g.uses(id).constant() {
+            if !pass.g.uses(id).constant() && !pass.is_scaled(id) {
                 let new = pass.rewrite(id);
                 pass.known.insert(id, new);
             }
@@ -176,7 +180,7 @@ impl<'g> Pass<'g> {
                 out.extend(self.terms(&varying));
                 let sum = self.g.sum(&out);
                 // One value for all that read it, whatever it has become.
-                match self.readers[&id] {
+                match self.read[&id].times {
                     1 => sum,
                     _ => self.g.hold_all(sum),
                 }
@@ -199,10 +203,16 @@ impl<'g> Pass<'g> {
     /// p (a + b).
     fn terms(&mut self, varying: &[(Num, Id)]) -> Terms {
         let mut alike: BTreeMap<(u64, Factors), Terms> = BTreeMap::new();
+        let mut out = Vec::with_capacity(varying.len());
         for (k, term) in varying {
             let (sign, size) = (k.get().signum(), k.get().abs());
+            let once = self.read[term].times == 1;
+            if !once && self.is_scaled(*term) {
+                out.push((sign, self.scaled(size, *term)));
+                continue;
+            }
             let mut fixed = match self.g.node(*term) {
-                Node::Product(factors) if self.readers[term] == 1 => factors.clone(),
+                Node::Product(factors) if once => factors.clone(),
                 _ => Vec::new(),
             };
             fixed.retain(|(f, _)| self.g.uses(*f).constant());
@@ -211,7 +221,6 @@ impl<'g> Pass<'g> {
                 .or_default()
                 .push((sign, *term));
         }
-        let mut out = Vec::with_capacity(varying.len());
         for ((size, fixed), terms) in alike {
             let size = f64::from_bits(size);
             if terms.len() == 1 || (size == 1.0 && fixed.is_empty()) {
@@ -247,17 +256,19 @@ impl<'g> Pass<'g> {
         out
     }
 
-    /// Whether the product `id` may be k times as large: nothing else reads it, or all do k times, and it has a prepared part for that.
-    fn takes(&self, k: f64, id: Id, factors: &[(Id, i32)]) -> bool {
-        let mut parts = factors.iter();
-        self.readers[&id] == 1
-            || self.alike[&id] == Some(k) && parts.any(|(f, _)| self.g.uses(*f).constant())
+    /// Whether `id` is a product with a prepared part that all multiply by one number: only the product with that number is of use.
+    fn is_scaled(&self, id: Id) -> bool {
+        let fixed = |(f, _): &(Id, i32)| self.g.uses(*f).constant();
+        matches!(self.g.node(id), Node::Product(factors) if factors.iter().any(fixed))
+            && self.read[&id].by.is_some_and(|k| k != 1.0)
     }
 
-    /// k · id, with k > 0 in the prepared part of a product that may take it.
+    /// k · id, with k > 0 in the prepared part of a product that all multiply by it, or that nothing else reads.
     fn scaled(&mut self, k: f64, id: Id) -> Id {
         match self.g.node(id).clone() {
-            Node::Product(factors) if k != 1.0 && self.takes(k, id, &factors) => {
+            Node::Product(factors)
+                if k != 1.0 && (self.read[&id].times == 1 || self.is_scaled(id)) =>
+            {
                 self.product(k, &factors)
             }
             _ => {

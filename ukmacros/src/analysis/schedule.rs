@@ -134,20 +134,20 @@ pub(crate) fn schedule(
 fn first_calls(g: &Graph, needed: &[Id]) -> Vec<Id> {
     let mut behind: Set<Id> = Set::default();
     let mut calls = Vec::new();
-    let mut arguments: Set<Id> = Set::default();
+    let mut arguments: Set<&[Id]> = Set::default();
     for id in needed {
         let mut late = false;
         g.each_operand(*id, |operand| late |= behind.contains(&operand));
         let called = match g.node(*id) {
-            Node::Call(f, args) if f.row().cost == Cost::Transcendental => args.first().copied(),
+            Node::Call(f, args) if f.row().cost == Cost::Transcendental => Some(&args[..]),
             _ => None,
         };
         if late || called.is_some() {
             behind.insert(*id);
         }
-        if let (Some(argument), false) = (called, late) {
+        if let (Some(args), false) = (called, late) {
             calls.push(*id);
-            arguments.insert(argument);
+            arguments.insert(args);
         }
     }
     if !(2..=FEW).contains(&arguments.len()) {
