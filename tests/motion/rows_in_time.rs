@@ -292,3 +292,75 @@ fn tolerances_below_the_rounding_of_a_late_time_cost_no_flood() {
         );
     }
 }
+
+ukcore::multibody! {
+    /// A gait: drives that differ by phases that are numbers, parameters, both, and turned about.
+    pub Gait {
+        const N: usize = 5;
+        params { a = 0.3, w = 2.5, lag = 0.7, late = 1e6 }
+        coords { fin[N], other, back, ahead, apart, from }
+        mass { fin: 1, other: 1, back: 1, ahead: 1, apart: 1, from: 1 }
+        holonomic {
+            for i in 0..N { swing[i]: fin[i] = a * sin(w * t + 2 * PI * i / N) }
+            drive: other = a * cos(w * t - lag)
+            turned: back = a * sin(lag - w * t - 1)
+            odd: ahead = a * cos(2 * lag - w * t)
+            // Another frequency, and a time that is counted from late on.
+            slow: apart = a * sin(0.5 * w * t + lag)
+            counted: from = a * sin(w * (t - late))
+        }
+    }
+}
+
+/// Sines that follow from each other are as right as sines by themselves, also at late times.
+#[test]
+fn gaits_are_what_their_phases_say() {
+    let gait = Gait::default();
+    let Gait { a, w, lag, late } = gait;
+    let gait = Prepared::from(gait);
+    for t in [
+        0.0,
+        1e-9,
+        0.3,
+        2.0 * std::f64::consts::PI / w,
+        -7.1,
+        1e3,
+        1e6,
+        1e6 + 0.25,
+    ] {
+        let turns = (0..5).map(|i| w * t + 2.0 * std::f64::consts::PI * f64::from(i) / 5.0);
+        let mut angles: Vec<f64> = turns.collect();
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let others = [
+            w * t - lag + quarter,
+            lag - w * t - 1.0,
+            2.0 * lag - w * t + quarter,
+        ];
+        angles.extend(
+            others
+                .into_iter()
+                .chain([0.5 * w * t + lag, w * (t - late)]),
+        );
+        let rates = [w, w, w, w, w, w, -w, -w, 0.5 * w, w];
+        let q: Vec<f64> = angles.iter().map(|angle| a * angle.sin()).collect();
+        let pairs = angles.iter().zip(rates);
+        let v: Vec<f64> = pairs
+            .clone()
+            .map(|(angle, rate)| a * rate * angle.cos())
+            .collect();
+        let expected: Vec<f64> = pairs
+            .map(|(angle, rate)| -a * rate * rate * angle.sin())
+            .collect();
+        let mut found = vec![0.0; 10];
+        assert!(gait.acceleration(t, &q, &v, &mut found) > 0.0);
+        let off = 8.0 * f64::EPSILON * (w * t).abs().max(1.0) * a * w * w;
+        tests::assert_all_close(&format!("at {t}"), &found, &expected, off);
+        let mut residual = vec![0.0; 10];
+        gait.residual(t, &q, &mut residual);
+        tests::assert_all_close(&format!("residuals at {t}"), &residual, &[0.0; 10], off);
+        // Nothing is lost where time is counted from late on.
+        if t >= late {
+            tests::assert_close("counted from late on", found[9], expected[9], 1e-15);
+        }
+    }
+}

@@ -13,6 +13,7 @@ mod hoist;
 mod hub;
 mod joint;
 mod lift;
+mod phases;
 mod probe;
 mod reactions;
 mod redundant;
@@ -76,6 +77,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let names: Vec<String> = coordinates.chain(constraints).collect();
     let structure = structure::structure(system, &dynamics, model);
     let (mut held, switches) = switches::hold(system, &dynamics, &names);
+    phases::shared(system, &mut held);
     let mut regular = regular::regular(system, &held);
     // The listing shows reactions by their names.
     let mut located = switches.clone();

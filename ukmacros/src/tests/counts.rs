@@ -115,6 +115,28 @@ fn bodies_in_space_cost_what_they_are_many() {
     }
 }
 
+/// One sine and cosine of time for all phases of a gait; what is turned by a coordinate, or moves at another frequency, has its own.
+#[test]
+fn phases_of_a_gait_cost_one_sine() {
+    let functions = |drives: &str| {
+        let text = format!(
+            "pub Gait {{ params {{ w = 2, lag = 0.3 }} coords {{ q[6] }} mass {{ q: 1 }} holonomic {{ {drives} }} }}"
+        );
+        let costs = analysis(text.parse().expect("tokens")).costs;
+        [costs.dynamics, costs.acceleration].map(|costs| costs.counts()[4])
+    };
+    let phases = "for i in 0..6 { drive[i]: q[i] = sin(w * t + 2 * PI * i / 6 - lag) }";
+    assert_eq!(functions(phases), [1, 1]);
+    let turned = "a: q[0] = sin(w * t), b: q[1] = cos(lag - w * t), c: q[2] = sin(-w * t - lag)";
+    assert_eq!(functions(turned), [1, 1]);
+    // One is left as it is.
+    assert_eq!(functions("a: q[0] = sin(w * t - lag)"), [1, 1]);
+    let apart = "a: q[0] = sin(w * t), b: q[1] = sin(2 * w * t + lag)";
+    assert_eq!(functions(apart), [2, 2]);
+    let moves = "a: q[0] = sin(q[1] + w * t), b: sin(q[1] + w * t + lag) = q[2]";
+    assert_eq!(functions(moves), [2, 2]);
+}
+
 /// By hand, in the null space and without a check, some 75 for each top.
 #[test]
 fn coupled_four_bars_cost_what_their_null_space_costs() {
