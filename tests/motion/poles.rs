@@ -65,3 +65,65 @@ fn rounding_beside_a_pole_does_not_become_the_motion() {
     // Most get there.
     assert!(through >= 30, "{through} of 50");
 }
+
+ukcore::multibody! {
+    /// A coin that rolls.
+    Coin {
+        params { m = 0.1, r = 0.1, g = 9.81 }
+        gravity { [0, 0, -g] }
+        bodies { spatial coin { mass: m, inertia: [m * sq(r) / 4, m * sq(r) / 2, m * sq(r) / 4] } }
+        holonomic { touches: disc(coin.at([0, 0, 0]), [0, 1, 0], r) }
+        nonholonomic { rolls: rolls(coin.at([0, 0, 0]), [0, 1, 0], r) }
+        start leaning(lean = 0.5, spin = 0.0) {
+            coin.e0 near cos(lean / 2)
+            coin.e1 near sin(lean / 2)
+            coin.x = 0
+            coin.y = 0
+            coin.z near r * cos(lean)
+            coin.spin = [0, 0, spin]
+        }
+    }
+}
+
+/// A coin with next to no spin falls until it is all but flat, whirls about by half a turn in next to no time, and gets up again.
+#[test]
+fn a_coin_that_falls_all_but_flat_gets_up_again() {
+    // 5/4 m r² a'' = m g r sin a, from lean 0.5 to flat: with a = 0.5 + u² the time is ∫ 2 u du/a'.
+    let (coin, top, flat) = (Coin::default(), 0.5_f64, std::f64::consts::FRAC_PI_2);
+    let factor = 1.6 * coin.g / coin.r;
+    let share = |u: f64| {
+        let a = top + u * u;
+        // cos 0.5 − cos a, without cancellation.
+        let fall = 2.0 * (0.5 * (a + top)).sin() * (0.5 * u * u).sin();
+        2.0 * u / (factor * fall).sqrt()
+    };
+    let (end, steps) = ((flat - top).sqrt(), 2000);
+    let h = end / f64::from(steps);
+    let midpoints: f64 = (0..steps).map(|i| share((f64::from(i) + 0.5) * h)).sum();
+    let fallen = h * midpoints;
+    for spin in [0.1, 1e-3, 1e-6] {
+        let start = coin.start("leaning", &[("spin", spin)].into());
+        let start = start.expect("a start");
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-6),
+            (Method::Dop853, 1e-9),
+            (Method::Dop853, 1e-12),
+            (Method::Dopri5, 1e-6),
+            (Method::Dopri5, 1e-9),
+            (Method::Radau5, 1e-9),
+        ] {
+            let name = format!("{method}, {tolerance:e}, spin {spin:e}");
+            let run = Simulation::new(coin.clone())
+                .start(start.clone())
+                .method(method)
+                .tolerance(tolerance)
+                .until(2.0 * fallen);
+            let run = run.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            let drift = run.energy_drift();
+            assert!(drift < 1e-7 + 100.0 * tolerance, "{name}: {drift:e}");
+            // Up again, but for what the spin changes.
+            let up = run.last().expect("an end").q[2] / coin.r - top.cos();
+            assert!(up.abs() < 1e-6 + spin + 100.0 * tolerance, "{name}: {up:e}");
+        }
+    }
+}

@@ -130,10 +130,10 @@ parts! {
     "screw" Space (p: Point, q: Point, u: Direction, lead: Number["m"]) Rows(&[
         "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
     ], "");
-    "disc" Space (q: Point, u: Direction, r: Number["m"]) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"], "");
+    "disc" Space (q: Point, u: Direction, r: Number["m"]) Rows(&["q[2] - r * sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1]))"], "");
     "rolls" Space (q: Point, u: Direction, r: Number["m"]) Rows(&[
-        "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
-        "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
+        "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
+        "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
     ], "x y");
     "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
