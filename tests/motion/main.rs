@@ -30,3 +30,4 @@ mod tied;
 mod tree;
 mod turned;
 mod vanishing;
+mod wheels_across;

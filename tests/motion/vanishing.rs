@@ -297,6 +297,19 @@ fn a_constraint_that_rest_leaves_without_gradient_is_named() {
         named(&failure, "appell", 1.0);
         let off = worst(&failure.trajectory, |s| (s.v[2] - 5.0 + 5.0 * s.t).abs());
         assert!(off < 1e-7, "{method}: {off:e}");
+        // Up to it all is told, however long steps are and wherever they end.
+        for k in 0..40 {
+            let (share, tolerance) = (
+                0.6 + 0.03 * f64::from(k),
+                [1e-4, 1e-7, 1e-10][k as usize % 3],
+            );
+            let v = [3.0, 4.0, 5.0].map(|v| share * v);
+            let thrown = simulation(Appell::default(), &[0.0; 3], &v, method, tolerance);
+            let failure = thrown.until(2.0).expect_err("rest");
+            named(&failure, "appell", share);
+            let last = failure.trajectory.last().expect("it has begun").t;
+            assert!(last > 0.999 * share, "{method}, {share}: {last}");
+        }
         // Pushed aside it is never at rest.
         let swung = run(0.1).unwrap_or_else(|failure| panic!("{method}: {failure}"));
         let rows = worst(&swung, |s| (s.v[0].hypot(s.v[1]) - s.v[2].abs()).abs());

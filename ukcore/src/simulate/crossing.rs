@@ -4,7 +4,10 @@
 //! of the others is a function f of the direction u of the motion and of the directions W that they bar, and at the singular position q*
 //! its derivatives by all of these vanish: f = e + ½ zᵀH z. Where e = 0 branches of the motion cross in q*, smooth each for itself, and a
 //! motion passes it in the branch it came on: the one without a jump of its velocity. Where e is not 0 no motion gets there: it turns,
-//! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
+//! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known. Constraints on velocities are
+//! derivatives of no f; for these see [`rates`].
+
+mod rates;
 
 use super::vanishing::Vanishing;
 use crate::assemble::State;
@@ -360,8 +363,11 @@ impl<'a> Search<'a> {
         }
         let measure = &self.dense.measure;
         self.scale = measure.size(&self.q) / measure.size(&u);
-        self.directions = vec![u];
         self.share();
+        if let Some(found) = self.rates(&u) {
+            return found;
+        }
+        self.directions = vec![u];
         self.bar(count, speed)?;
         for _ in 0..MOST {
             if let Some(found) = self.newton()? {

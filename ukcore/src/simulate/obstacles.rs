@@ -190,9 +190,17 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         }
     } else {
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
-        let mut jacobian = vec![0.0; near.q.len() * spec.m()];
-        mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
-        if found.size_in(Rows::all(&jacobian, spec.m())) <= RANK_CEILING {
+        let ahead = found.t - near.t;
+        let place = near.q.iter().zip(&near.v).map(|(q, v)| q + ahead * v);
+        let place: Vec<f64> = place.collect();
+        let [there, here] = [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
+            let mut jacobian = vec![0.0; q.len() * spec.m()];
+            mech.jacobian(t, q, old.v, &mut jacobian);
+            found.size_in(Rows::all(&jacobian, spec.m()))
+        });
+        // Nor is one of concern that is small already, and not zero where it is least.
+        let dips = there <= RANK_CEILING && found.least >= UNTOLD;
+        if dips || there <= RANK_CEILING * here {
             return None;
         }
     }

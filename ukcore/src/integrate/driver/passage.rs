@@ -48,6 +48,11 @@ const STEEP: f64 = 8.0;
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
+/// A position where nothing tells how the motion goes on is met within this share of the way to it from the start of the run; and the share
+/// of the way left that a step to it goes.
+const MET: f64 = 1e-4;
+const UP_TO: f64 = 0.9;
+
 /// So many steps of one size before a position are made by longer ones, which are to have the room to go over it as they would.
 const BACK: usize = 32;
 /// So many behind it.
@@ -443,6 +448,13 @@ impl Driver<'_> {
             // So may one of a step that is far too long.
             self.passage.plans += 1;
             course.h = 0.5 * trial.h;
+            return Err(Refusal::Unplanned);
+        }
+        // Nearer to it more can be told, if only when it is met.
+        let way = course.now.s.abs() + left;
+        if undecided && made && left > MET * way && self.passage.plans < PLANS {
+            self.passage.plans += 1;
+            course.h = course.along * UP_TO * left;
             return Err(Refusal::Unplanned);
         }
         if undecided || close && left > 0.0 {
