@@ -68,3 +68,71 @@ fn dead_centres_far_off_are_passed_or_refused() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// An antiparallelogram of bars a and d, after some turns of its crank.
+    Crossed {
+        params { a = 0.5, d = 1.0, m = 1.0, j = 0.02, turns = 0.0 }
+        bodies {
+            planar crank { mass: m, inertia: j }
+            planar coupler { mass: m, inertia: j, centre: [d / 2, 0] }
+            planar rocker { mass: m, inertia: j }
+        }
+        holonomic {
+            o: pin(ground.at([0, 0]), crank.at([0, 0]))
+            p: pin(crank.at([a, 0]), coupler.at([0, 0]))
+            q: pin(coupler.at([d, 0]), rocker.at([a, 0]))
+            r: pin(ground.at([d, 0]), rocker.at([0, 0]))
+        }
+        output {
+            /// 0 in the branch where the bars cross, dead centres included
+            parted = sin(rocker.angle / 2) * cos(crank.angle / 2) * (d - a) + sin(crank.angle / 2) * cos(rocker.angle / 2) * (d + a)
+        }
+        start crossed(speed = 10.0) {
+            crank.angle = 1 + 2 * PI * turns
+            dot(crank.angle) = speed
+            rocker.angle near -2 - 2 * PI * turns
+            coupler.angle near -0.9
+            coupler.x near d / 2
+            rocker.x near d
+        }
+    }
+}
+
+/// Angles are known the less the more turns they have made; dead centres are passed all the same.
+#[test]
+fn dead_centres_after_many_turns_are_passed() {
+    for (turns, drifts) in [(0.0, 1e-6), (30.0, 1e-6), (1000.0, 2e-6)] {
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-9),
+            (Method::Dop853, 1e-10),
+            (Method::Dop853, 1e-12),
+            (Method::Dopri5, 1e-12),
+            (Method::Radau5, 1e-11),
+        ] {
+            for k in 0..5 {
+                let speed = 12.533_333 + 4.1 * f64::from(k);
+                let label = format!("{turns} turns, {speed}, {method}, {tolerance:e}");
+                let crossed = Crossed {
+                    turns,
+                    ..Crossed::default()
+                };
+                let start = crossed.start("crossed", &[("speed", speed)].into());
+                let run = Simulation::new(crossed)
+                    .start(start.unwrap_or_else(|e| panic!("{label}: {e}")))
+                    .method(method)
+                    .tolerance(tolerance)
+                    .every(0.02)
+                    .until(0.6);
+                let run = run.unwrap_or_else(|failure| panic!("{label}: {failure}"));
+                let parted = run.output("parted").expect("it");
+                let parted = parted.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let drift = run.energy_drift();
+                assert!(
+                    parted < 1e-7 && drift < drifts,
+                    "{label}: {parted:e}, {drift:e}"
+                );
+            }
+        }
+    }
+}

@@ -271,7 +271,7 @@ impl Driver<'_> {
             self.scheme.tolerate(&self.tolerance);
         }
         let made = self.make(trial, rounding);
-        self.survey(trial, made.is_ok())?;
+        self.survey(trial, &made)?;
         let error = made?;
         self.weigh(error * rounding, trial.h)?;
         self.progress(trial)?;

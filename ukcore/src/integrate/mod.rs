@@ -208,6 +208,9 @@ pub(crate) struct Singular {
     /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
     pub(crate) significance: f64,
     pub(crate) rate: f64,
+    /// How many times ε coordinates are known to there, as a share of what makes a constraint significant: more than 1 far off, or after
+    /// many turns.
+    pub(crate) rounding: f64,
     /// These constraints.
     pub(crate) constraints: Vec<String>,
 }
@@ -220,6 +223,7 @@ impl Singular {
             gap: f64::INFINITY,
             significance,
             rate: 0.0,
+            rounding: 1.0,
             constraints: Vec::new(),
         }
     }

@@ -111,10 +111,12 @@ fn find_of(
         let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
         match found {
             Some(found) if there == rank => {
+                // Where it turns it is no nearer than that.
+                let rate = significance / (found.t - near.t).hypot(found.gap.max(0.0));
                 return Some(Singular {
                     significance,
-                    // Where it turns it is no nearer than that.
-                    rate: significance / (found.t - near.t).hypot(found.gap.max(0.0)),
+                    rate,
+                    rounding: (search.scale * rate).clamp(1.0, f64::MAX),
                     ..found
                 });
             }
@@ -161,6 +163,7 @@ pub(super) fn between(
             },
             significance: least,
             rate: way.recip(),
+            rounding: 1.0,
             constraints,
         })
     })
@@ -236,6 +239,7 @@ pub(super) fn implied(mech: &Prepared, t: f64, vanishing: &Vanishing) -> Option<
             },
             significance,
             rate: way.recip(),
+            rounding: 1.0,
             constraints,
         })
     })
@@ -467,6 +471,7 @@ impl<'a> Search<'a> {
             },
             significance: 0.0,
             rate: 0.0,
+            rounding: 1.0,
             constraints: self.mech.spec().constraint_names(lost),
         }))
     }

@@ -214,6 +214,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         },
         significance: *reached,
         rate: way.recip(),
+        rounding: 1.0,
         constraints: vec![spec.constraints[*row].name.to_owned()],
     })
 }

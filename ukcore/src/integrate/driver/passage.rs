@@ -33,6 +33,14 @@ const TURNING: f64 = 0.25 * f64::EPSILON;
 /// The largest tolerance that this may lead to: the one where nothing is said.
 const COARSEST: f64 = 1e-9;
 
+/// A step over a position that comes out less exactly by no more than this many times, or than rounding of coordinates makes it, is granted
+/// that: a shorter one would be no better. So much more than what it came out with is granted then.
+const FAINTEST: f64 = 8.0;
+const AGAIN: f64 = 1.5;
+
+/// At a significance δ velocities may be known to no more than so many times the rounding of coordinates over δ².
+const KNOWN: f64 = 16.0 * f64::EPSILON;
+
 /// Tolerance of what is made in place of steps of one size.
 const DETOUR: f64 = 1e-10;
 
@@ -85,8 +93,9 @@ pub(super) struct Passage {
     pub(super) bounded: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
-    /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so less is asked for.
-    faint: bool,
+    /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so no more than this is asked
+    /// for; 0 before that.
+    faint: f64,
     /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
@@ -116,8 +125,28 @@ impl Passage {
     /// What rounding makes of velocities in the step in hand, beside a position.
     fn noise(&self, position: &Singular) -> f64 {
         let significance = self.distance * position.rate;
-        let noise = if position.gap > 0.0 { TURNING } else { NOISE };
+        let noise = match position.gap > 0.0 {
+            true => TURNING,
+            false => NOISE * position.rounding,
+        };
         noise / (significance * significance)
+    }
+
+    /// A step over the position was refused: less is asked for in the next one, if that is as long.
+    fn fade(&mut self, refusal: &Refusal) {
+        let granted = match (&self.ahead, refusal) {
+            _ if self.faint == 0.0 => Some(COARSEST),
+            (Some(position), Refusal::Inaccurate(error)) => {
+                let significance = self.distance * position.rate;
+                let known = KNOWN * position.rounding / (significance * significance);
+                let most = known.max(FAINTEST * COARSEST);
+                Some(AGAIN * error * self.faint).filter(|granted| *granted <= most)
+            }
+            _ => None,
+        };
+        if let Some(granted) = granted {
+            (self.faint, self.untried) = (granted, true);
+        }
     }
 
     /// A step from this place and state is accepted.
@@ -135,8 +164,8 @@ impl Passage {
     pub(super) fn ease(&mut self, tolerance: &mut Tolerance, run: &Tolerance, v: &[f64]) -> bool {
         let mut eased = [run.relative, 1.0];
         if let Some(position) = &self.ahead {
-            let least = match self.faint && self.passing {
-                true => COARSEST,
+            let least = match self.faint > 0.0 && self.passing {
+                true => self.faint,
                 false => self.noise(position).min(COARSEST),
             };
             let floors = &run.floors[v.len()..];
@@ -376,22 +405,33 @@ impl Driver<'_> {
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
-    pub(super) fn survey(&mut self, trial: Trial, made: bool) -> Result<(), Refusal> {
+    pub(super) fn survey(
+        &mut self,
+        trial: Trial,
+        made: &Result<f64, Refusal>,
+    ) -> Result<(), Refusal> {
         // A step of the one size may come to nothing before anything near is evaluated.
         let Equations {
             course, problem, ..
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let gap = self.gap;
-        if self.passage.passing && !made && !self.passage.faint {
-            (self.passage.faint, self.passage.untried) = (true, true);
+        if self.passage.passing
+            && let Err(refusal) = made
+        {
+            self.passage.fade(refusal);
         }
+        // Near a position that no stage has met yet, rounding may undo steps already.
+        let undone = matches!(made, Err(Refusal::End(None))) && self.passage.ahead.is_none();
+        let made = made.is_ok();
         let purpose = if made {
             Purpose::Step
         } else {
             Purpose::Attempt
         };
-        let found = problem.singular(purpose, (!made && gap.is_none()).then_some(here));
+        let stands = undone || !made && gap.is_none();
+        let found = problem.singular(purpose, stands.then_some(here));
+        let found = found.filter(|found| !undone || gap.is_none() || found.gap == 0.0);
         let end = Sample::of(trial.end.t, self.scheme.end());
         let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
         match found {
@@ -479,7 +519,7 @@ impl Driver<'_> {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
         if self.passage.ahead.is_none() {
-            (self.passage.untried, self.passage.faint) = (true, false);
+            (self.passage.untried, self.passage.faint) = (true, 0.0);
         }
         self.passage.ahead = Some(found);
         if good {

@@ -69,6 +69,7 @@ impl Search<'_> {
                     gap: if met { 0.0 } else { open },
                     significance: 0.0,
                     rate: 0.0,
+                    rounding: 1.0,
                     constraints: self.mech.spec().constraint_names(lost),
                 }));
             }
