@@ -368,3 +368,89 @@ fn beside_the_top_of_a_hoop_a_bead_rests_at_the_top_or_falls() {
         assert_eq!(found.stability, expected.1, "{aside}");
     }
 }
+
+mechanisms! {
+    Damped {
+        params { l = 1.0, g = 9.81, c = 0.5 }
+        coords { a }
+        mass { a: sq(l) }
+        potential { -g * l * cos(a) }
+        dissipation { 0.5 * c * sq(dot(a)) }
+    }
+    Truss {
+        params { k = 1000.0, f = 5.0, c = 0.5 }
+        coords { y }
+        mass { y: 1 }
+        potential { k * sq(hypot(1, y) - 1.1) + f * y }
+        force { y: -c * dot(y) * (1 + abs(dot(y))) }
+    }
+    Wells {
+        coords { x }
+        mass { x: 1 }
+        potential { 0.25 * x.powi(4) - 0.5 * sq(x) }
+        nonideal { x: -dot(x) }
+    }
+    Pushed {
+        params { l = 1.0, g = 9.81, push = 0.0 }
+        coords { a }
+        mass { a: sq(l) }
+        potential { -g * l * cos(a) }
+        force { a: push * cos(a) - dot(a) }
+    }
+}
+
+/// What vanishes at rest, as dampers do, leads nowhere: a search falls where a damped motion does, over a top if it must.
+#[test]
+fn damped_mechanisms_fall_as_undamped_ones_do() {
+    fn rests<M: Mechanism>(mechanism: M, from: f64) -> f64 {
+        let name = format!("{} from {from}", M::SPEC.name);
+        let found = equilibrium(mechanism, &guess(&[from]), &[]);
+        let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(
+            found.stability,
+            Stability::Stable,
+            "{name}: {:?}",
+            found.state.q
+        );
+        found.state.q[0]
+    }
+    for from in [0.5, 1.5, 2.0, 2.5, 3.0, 3.1, -2.2] {
+        assert_close("a swing", rests(Damped::default(), from), 0.0, 1e-9);
+    }
+    for from in [0.1, 0.3, 0.5, 0.57, 0.6, 2.0, -0.1] {
+        let from: f64 = from;
+        assert_close("wells", rests(Wells::default(), from), from.signum(), 1e-9);
+    }
+    // 2 k (1 − 1.1/√(1 + y²)) y + f = 0.
+    let balance = |y: f64, f: f64| 2000.0 * (1.0 - 1.1 / 1.0_f64.hypot(y)) * y + f;
+    for (f, from, up) in [
+        (5.0, 0.4, true),
+        (5.0, 0.1, true),
+        (5.0, 0.02, false),
+        (5.0, -0.1, false),
+        (60.0, 0.4, false),
+        (60.0, 0.0, false),
+        (60.0, -0.4, false),
+    ] {
+        let y = rests(
+            Truss {
+                f,
+                ..Truss::default()
+            },
+            from,
+        );
+        assert!(
+            balance(y, f).abs() < 1e-8 && (y > 0.0) == up,
+            "{f}, {from}: {y}"
+        );
+    }
+    // A force that the potential does not have holds it aside, where it is the nearer one.
+    let pushed = rests(
+        Pushed {
+            push: 3.0,
+            ..Pushed::default()
+        },
+        0.2,
+    );
+    assert_close("pushed", pushed, (3.0_f64 / 9.81).atan(), 1e-9);
+}

@@ -2,9 +2,9 @@
 //!
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
 //! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have
-//! a potential the search goes downhill: curvatures count by their magnitude, so it ends where the potential is least nearby, unless it
-//! starts where nothing moves it. Else r alone tells. Steps are so short that the constraints are followed: the mechanism rests in the
-//! branch in which it starts.
+//! a potential, but for those that vanish at rest as of dampers, the search goes downhill: curvatures count by their magnitude, so it ends
+//! where the potential is least nearby, unless it starts where nothing moves it. Else r alone tells. Steps are so short that the constraints
+//! are followed: the mechanism rests in the branch in which it starts.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,7 +13,7 @@ use crate::diagnose::undirected;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
@@ -42,6 +42,9 @@ pub enum Stability {
 const STEPS: usize = 200;
 /// A displacement for differences of forces, as a part of the coordinates, where coordinates are held.
 const DIFFERENCE: f64 = 1e-6;
+/// A displacement for differences of the potential, in the same way, and the share of forces that these are known to.
+const SLOPE: f64 = 1e-5;
+const MATCHED: f64 = 1e-6;
 /// Forces below this share of their parts are rounding.
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
@@ -75,6 +78,7 @@ pub fn equilibrium(
     let held = held(mech.spec(), hold)?;
     let mut search = Search {
         solver: Solver::new(&mech, SolverOptions::default()),
+        conservative: true,
         mech,
         held,
         size: 0.0,
@@ -141,6 +145,8 @@ struct Search {
     held: Vec<usize>,
     /// The largest coordinate so far, in units of the coordinates.
     size: f64,
+    /// At rest all forces so far have been those of the potential.
+    conservative: bool,
 }
 
 /// A position on the constraints, and what drives it.
@@ -264,12 +270,12 @@ impl Search {
         let parts: f64 = parts.map(|(f, unit)| (f * unit).abs()).sum();
         let rows = constraint_matrix(&self.mech, &state);
         let basis = null_space_holding(&self.held, rows, &units);
-        let conservative = self.mech.spec().structure.conservative;
+        self.conservative = self.conservative && self.is_driven_by_potential(&state, &units);
         let energy = self.mech.energy(state.t, &state.q, &state.v);
         Ok(Place {
             force: basis.tr_mul(&push),
             parts: parts + push.abs().sum(),
-            potential: conservative.then_some(energy.potential),
+            potential: self.conservative.then_some(energy.potential),
             basis,
             mass,
             units,
@@ -277,6 +283,63 @@ impl Search {
             push,
             state,
         })
+    }
+
+    /// Whether Q and c at this state of rest are those of the potential, as far as its differences tell.
+    fn is_driven_by_potential(&self, state: &State, units: &DVector<f64>) -> bool {
+        let (mech, State { t, q, v }) = (&self.mech, state);
+        if mech.spec().structure.conservative {
+            return true;
+        }
+        let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
+        terms.dynamics(mech, *t, q, v);
+        let potential = |q: &[f64]| mech.energy(*t, q, v).potential;
+        let (mut off, mut parts) = (0.0_f64, 0.0);
+        let mut moved = q.clone();
+        for (i, unit) in units.iter().enumerate() {
+            let h = SLOPE * self.size * unit;
+            let mut at = |q: f64| {
+                moved[i] = q;
+                potential(&moved)
+            };
+            let [after, before] = [at(q[i] + h), at(q[i] - h)];
+            moved[i] = q[i];
+            let (slope, force) = (
+                (after - before) / (2.0 * h),
+                terms.force[i] + terms.nonideal[i],
+            );
+            off = off.max(((force + slope) * unit).abs());
+            // What rounding makes of the difference, too.
+            let rounding = f64::EPSILON * (after.abs() + before.abs()) / h;
+            parts += (force.abs() + slope.abs() + rounding / MATCHED) * unit;
+        }
+        off <= MATCHED * parts && !self.is_held_by_turning(state, units)
+    }
+
+    /// Whether forces depend on velocities and do no work, as those of a frame that turns: they may hold what is at the top of a potential.
+    fn is_held_by_turning(&self, state: &State, units: &DVector<f64>) -> bool {
+        let (mech, State { t, q, .. }) = (&self.mech, state);
+        // Like no other.
+        let parts = [1.0, -0.6, 0.3, -0.8, 0.5].iter().cycle();
+        let v: Vec<f64> = units
+            .iter()
+            .zip(parts)
+            .map(|(unit, part)| part * unit)
+            .collect();
+        let forces = |sign: f64| {
+            let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
+            let v: Vec<f64> = v.iter().map(|v| sign * v).collect();
+            terms.dynamics(mech, *t, q, &v);
+            terms.force.into_iter().zip(terms.nonideal)
+        };
+        // What inertia makes of velocities is the same both ways.
+        let (mut power, mut parts) = (0.0_f64, 0.0_f64);
+        for (v, (there, back)) in v.iter().zip(forces(1.0).zip(forces(-1.0))) {
+            let part = v * (there.0 + there.1 - back.0 - back.1);
+            power += part;
+            parts += part.abs();
+        }
+        parts > 0.0 && power.abs() <= MATCHED * parts
     }
 
     /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.

@@ -107,10 +107,9 @@ pub enum Error {
     /// rounding does not tell whether branches cross there or turn away from each other, or the motion can go on in many ways, as from the
     /// apex of a cone, or the run begins or ends too close to it.
     #[error(
-        "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end \
-         the run before it, start it elsewhere, or change lengths or the start such that the position is met exactly on the \
-         way or missed by more",
-        if constraints.is_empty() { "a constraint".to_owned() } else { quoted(constraints) }
+        "a singular position, where {}: nothing tells in which way the motion goes on; end the run before it, start it elsewhere, or \
+         change lengths or the start such that the position is met exactly on the way or missed by more",
+        lost(constraints)
     )]
     Singular {
         /// Their names.
@@ -321,6 +320,18 @@ fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
     }
 }
 
+/// What has become of `constraints` in a singular position.
+fn lost(constraints: &[String]) -> String {
+    match constraints {
+        [] => "a constraint is implied by the others or has no gradient".to_owned(),
+        [one] => format!("`{one}` is implied by the others or has no gradient"),
+        several => format!(
+            "{} are implied by the others or have no gradient",
+            quoted(several)
+        ),
+    }
+}
+
 fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
     let (size, cause) = match step {
         0.0 => (
@@ -329,7 +340,7 @@ fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
         ),
         _ => (
             format!("steps fell to {step:.1e}, with which the run does not get on"),
-            "the tolerance be too tight, or forces too stiff for an explicit method, for which `Method::Radau5` is",
+            "the tolerance be too tight, or, where the method is explicit, forces too stiff for it: `Method::Radau5` is for these",
         ),
     };
     let fastest = fastest.map_or(String::new(), |(name, acceleration)| {

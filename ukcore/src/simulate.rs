@@ -195,7 +195,8 @@ impl Simulation {
     /// Samples lie on the interpolant, then are projected; they do not influence the steps. Interpolation by DOP853 adds an
     /// error of some ten tolerances to that which the steps have gathered; measured on swings of a pendulum at tolerances
     /// 1e-4 to 1e-12 against runs that end at the sample times, the largest error of samples was up to 9 times larger within
-    /// the first swing, and the same after a few. With DOPRI5 it was at most 1.25 times larger. For a state
+    /// the first swing, and the same after a few. With DOPRI5 it was at most 1.25 times larger. The interpolant of Radau5 is of order 3,
+    /// its steps are of order 5: within the first swing 1.4 times at 1e-4, 22 at 1e-10, 71 at 1e-12, and the same after ten. For a state
     /// at the full accuracy of the steps, let a run end there.
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
