@@ -298,8 +298,8 @@ ukcore::multibody! {
     pub Gait {
         const N: usize = 5;
         params { a = 0.3, w = 2.5, lag = 0.7, late = 1e6 }
-        coords { fin[N], other, back, ahead, apart, from }
-        mass { fin: 1, other: 1, back: 1, ahead: 1, apart: 1, from: 1 }
+        coords { fin[N], other, back, ahead, apart, from, plain }
+        mass { fin: 1, other: 1, back: 1, ahead: 1, apart: 1, from: 1, plain: 1 }
         holonomic {
             for i in 0..N { swing[i]: fin[i] = a * sin(w * t + 2 * PI * i / N) }
             drive: other = a * cos(w * t - lag)
@@ -307,7 +307,8 @@ ukcore::multibody! {
             odd: ahead = a * cos(2 * lag - w * t)
             // Another frequency, and a time that is counted from late on.
             slow: apart = a * sin(0.5 * w * t + lag)
-            counted: from = a * sin(w * (t - late))
+            counted: from = a * sin(2.5 * (t - late))
+            by_number: plain = a * sin(2.5 * t)
         }
     }
 }
@@ -339,9 +340,9 @@ fn gaits_are_what_their_phases_say() {
         angles.extend(
             others
                 .into_iter()
-                .chain([0.5 * w * t + lag, w * (t - late)]),
+                .chain([0.5 * w * t + lag, w * (t - late), w * t]),
         );
-        let rates = [w, w, w, w, w, w, -w, -w, 0.5 * w, w];
+        let rates = [w, w, w, w, w, w, -w, -w, 0.5 * w, w, w];
         let q: Vec<f64> = angles.iter().map(|angle| a * angle.sin()).collect();
         let pairs = angles.iter().zip(rates);
         let v: Vec<f64> = pairs
@@ -351,13 +352,13 @@ fn gaits_are_what_their_phases_say() {
         let expected: Vec<f64> = pairs
             .map(|(angle, rate)| -a * rate * rate * angle.sin())
             .collect();
-        let mut found = vec![0.0; 10];
+        let mut found = vec![0.0; 11];
         assert!(gait.acceleration(t, &q, &v, &mut found) > 0.0);
         let off = 8.0 * f64::EPSILON * (w * t).abs().max(1.0) * a * w * w;
         tests::assert_all_close(&format!("at {t}"), &found, &expected, off);
-        let mut residual = vec![0.0; 10];
+        let mut residual = vec![0.0; 11];
         gait.residual(t, &q, &mut residual);
-        tests::assert_all_close(&format!("residuals at {t}"), &residual, &[0.0; 10], off);
+        tests::assert_all_close(&format!("residuals at {t}"), &residual, &[0.0; 11], off);
         // Nothing is lost where time is counted from late on.
         if t >= late {
             tests::assert_close("counted from late on", found[9], expected[9], 1e-15);

@@ -19,6 +19,22 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// One whose wheels never stand across at once: the front one is `early`.
+    Apart {
+        params { m = 2.0, j = 0.3, l = 0.4, early = 0.0 }
+        coords { x, y, th }
+        mass { x: m, y: m, th: j }
+        let back = -t;
+        let front = t + early;
+        nonholonomic {
+            rear: -sin(th + back) * dot(x) + cos(th + back) * dot(y) - l * cos(back) * dot(th) = 0
+            fore: -sin(th + front) * dot(x) + cos(th + front) * dot(y) + l * cos(front) * dot(th) = 0
+        }
+        output { turn = dot(th), along = cos(th) * dot(x) + sin(th) * dot(y), across = cos(th) * dot(y) - sin(th) * dot(x) }
+    }
+}
+
+ukcore::multibody! {
     /// The same of bodies: rows of joints take part, and one that is redundant.
     Bodies {
         params { m = 1.5, j = 0.2, l = 0.4, w = 1.0, a = 0.0, wheel = 0.25, turning = 0.01 }
@@ -197,4 +213,61 @@ fn wheels_that_stand_across_are_passed_beside_joints() {
             },
         );
     }
+}
+
+/// Where wheels all but stand across at once, the body turns about in next to no time, and goes back. A run does so, or is refused.
+#[test]
+fn wheels_that_stand_across_one_after_the_other_are_not_taken_for_both() {
+    let Apart { m, j, l, .. } = Apart::default();
+    // Velocities that both wheels allow: along the board, across it, and of its turning.
+    let way = |t: f64, early: f64| {
+        let (p, q) = (-t, t + early);
+        [
+            2.0 * l * p.cos() * q.cos(),
+            l * (p + q).sin(),
+            (q - p).sin(),
+        ]
+    };
+    let speed = |[x, y, w]: [f64; 3]| (m * (x * x + y * y) + j * w * w).sqrt();
+    let mut through = [0; 2];
+    for early in [
+        1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14, -1e-3, -1e-7,
+        -1e-11,
+    ] {
+        for (method, tolerance) in runs() {
+            let name = format!("{method}, {tolerance:e}, early {early:e}");
+            let from = way(0.2, early);
+            let [along, across, turn] = from.map(|v| v / speed(from));
+            let start = State {
+                t: 0.2,
+                q: vec![0.0; 3],
+                v: vec![along, across, turn],
+            };
+            let run = Simulation::new(Apart {
+                early,
+                ..Apart::default()
+            })
+            .start(start)
+            .method(method)
+            .tolerance(tolerance)
+            .until(2.5);
+            let Ok(run) = run else {
+                continue;
+            };
+            through[usize::from(early.abs() < 1e-2)] += 1;
+            let to = way(2.5, early);
+            let off = 1e-7 + 100.0 * tolerance;
+            for (output, expected) in ["along", "across", "turn"].iter().zip(to) {
+                let found = *run.output(output).expect("it").last().expect("an end");
+                assert_close(
+                    &format!("{name}: {output}"),
+                    found,
+                    expected / speed(to),
+                    off,
+                );
+            }
+        }
+    }
+    // Those that miss by so much are all right.
+    assert_eq!(through[0], 2 * runs().len());
 }

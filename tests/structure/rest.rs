@@ -399,6 +399,24 @@ mechanisms! {
     }
 }
 
+mechanisms! {
+    /// Held at the top of a hill by turning, with a damper across.
+    Spun {
+        coords { x, y, z }
+        mass { x: 1, y: 1, z: 1 }
+        potential { 0.5 * (sq(z) - sq(x) - sq(y)) }
+        force { x: 10 * dot(y), y: -10 * dot(x), z: -dot(z) }
+    }
+}
+
+#[test]
+fn what_turns_holds_a_top_whatever_damps_beside_it() {
+    let found = equilibrium(Spun::default(), &guess(&[0.1, 0.2, 0.3]), &[]);
+    let found = found.expect("the top");
+    assert_all_close("at the top", &found.state.q, &[0.0; 3], 1e-9);
+    assert_eq!(found.stability, Stability::Neutral);
+}
+
 /// What vanishes at rest, as dampers do, leads nowhere: a search falls where a damped motion does, over a top if it must.
 #[test]
 fn damped_mechanisms_fall_as_undamped_ones_do() {

@@ -316,30 +316,26 @@ impl Search {
         off <= MATCHED * parts && !self.is_held_by_turning(state, units)
     }
 
-    /// Whether forces depend on velocities and do no work, as those of a frame that turns: they may hold what is at the top of a potential.
+    /// Whether forces turn velocities, as those of a frame that turns do: they may hold what is at the top of a potential, whatever else damps
+    /// it. That is so where ∂(Q + c)/∂q̇ is not symmetric; what inertia makes of velocities is the same both ways.
     fn is_held_by_turning(&self, state: &State, units: &DVector<f64>) -> bool {
         let (mech, State { t, q, .. }) = (&self.mech, state);
-        // Like no other.
-        let parts = [1.0, -0.6, 0.3, -0.8, 0.5].iter().cycle();
-        let v: Vec<f64> = units
-            .iter()
-            .zip(parts)
-            .map(|(unit, part)| part * unit)
-            .collect();
-        let forces = |sign: f64| {
-            let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
-            let v: Vec<f64> = v.iter().map(|v| sign * v).collect();
-            terms.dynamics(mech, *t, q, &v);
-            terms.force.into_iter().zip(terms.nonideal)
-        };
-        // What inertia makes of velocities is the same both ways.
-        let (mut power, mut parts) = (0.0_f64, 0.0_f64);
-        for (v, (there, back)) in v.iter().zip(forces(1.0).zip(forces(-1.0))) {
-            let part = v * (there.0 + there.1 - back.0 - back.1);
-            power += part;
-            parts += part.abs();
+        let n = q.len();
+        let mut terms = Evaluated::new(n, mech.spec().m());
+        let mut slopes = DMatrix::<f64>::zeros(n, n);
+        let mut v = vec![0.0; n];
+        for j in 0..n {
+            for sign in [1.0, -1.0] {
+                v[j] = sign * units[j];
+                terms.dynamics(mech, *t, q, &v);
+                for i in 0..n {
+                    slopes[(i, j)] += sign * units[i] * (terms.force[i] + terms.nonideal[i]);
+                }
+            }
+            v[j] = 0.0;
         }
-        parts > 0.0 && power.abs() <= MATCHED * parts
+        let turning = (&slopes - slopes.transpose()).amax();
+        turning > MATCHED * slopes.amax()
     }
 
     /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.

@@ -368,7 +368,7 @@ impl<'a> Search<'a> {
         let measure = &self.dense.measure;
         self.scale = measure.size(&self.q) / measure.size(&u);
         self.share();
-        if let Some(found) = self.rates(&u) {
+        if let Some(found) = self.rates(&u, count) {
             return found;
         }
         self.directions = vec![u];

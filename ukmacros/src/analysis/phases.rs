@@ -79,9 +79,13 @@ fn turned(g: &Graph, id: Id) -> Option<Id> {
 
 /// What varies in an argument, and how it is made of that.
 fn parts(g: &mut Graph, argument: Id) -> Option<(Id, Argument)> {
+    // What stands in parentheses behind a number stays together: a difference there may be exact that its parts are not.
+    if g.unscaled(argument).0.abs() != 1.0 {
+        return None;
+    }
     let terms = g.open(1.0, argument).into_iter();
     let (fixed, varying): (Vec<_>, Vec<_>) = terms.partition(|(_, term)| g.uses(*term).constant());
-    // Far from the origin of time, where a difference is exact that its parts are not.
+    // So may one from far off the origin of time.
     let far = |(k, term): &(f64, Id)| g.as_const(*term).is_some_and(|x| (k * x).abs() > FARTHEST);
     if fixed.iter().any(far) {
         return None;

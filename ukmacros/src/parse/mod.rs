@@ -16,3 +16,4 @@ pub(crate) use item::{
     LetValue, MassEntry, Measure, PartUse, Shape, Start,
 };
 pub(crate) use table::{Table, split};
+pub(crate) use words::is_freed;

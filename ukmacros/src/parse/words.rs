@@ -1,7 +1,7 @@
 //! Names that Rust keeps to itself.
 
 use crate::diag::Diagnostics;
-use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use std::collections::BTreeSet;
 
 /// Reserved words of Rust that have no meaning in a declaration, and so can only be meant as names.
@@ -13,6 +13,12 @@ pub(super) fn free(tokens: TokenStream, diag: &Diagnostics) -> TokenStream {
         true => freed(tokens, &mut BTreeSet::new(), diag),
         false => tokens,
     }
+}
+
+/// Whether `name` stands in the place of a reserved word, of which that has been told.
+pub(crate) fn is_freed(name: &str) -> bool {
+    let word = name.strip_suffix('_');
+    word.is_some_and(|word| RESERVED.split(' ').any(|reserved| reserved == word))
 }
 
 fn any(tokens: &TokenStream) -> bool {
@@ -28,13 +34,7 @@ fn is_reserved(name: &Ident) -> bool {
 }
 
 fn freed(tokens: TokenStream, told: &mut BTreeSet<String>, diag: &Diagnostics) -> TokenStream {
-    let mut free = |token, calls: bool| match token {
-        // Of a function that is called and not declared it is told that there is none.
-        TokenTree::Ident(name)
-            if calls && is_reserved(&name) && !told.contains(&name.to_string()) =>
-        {
-            Ident::new_raw(&name.to_string(), name.span()).into()
-        }
+    let mut free = |token| match token {
         TokenTree::Ident(name) if is_reserved(&name) => {
             let other = format!("{name}_");
             if told.insert(name.to_string()) {
@@ -53,12 +53,5 @@ fn freed(tokens: TokenStream, told: &mut BTreeSet<String>, diag: &Diagnostics) -
         }
         other => other,
     };
-    let mut tokens = tokens.into_iter().peekable();
-    let mut out = Vec::new();
-    while let Some(token) = tokens.next() {
-        let calls = |next: &TokenTree| matches!(next, TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis);
-        let calls = tokens.peek().is_some_and(calls);
-        out.push(free(token, calls));
-    }
-    out.into_iter().collect()
+    tokens.into_iter().map(&mut free).collect()
 }

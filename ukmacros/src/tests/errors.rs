@@ -324,7 +324,7 @@ cases! {
     family_members_out_of_order: "coords { for i in 1..3 { «x[i]» } y } mass { y: 1.0 }" => "must be declared in order from `x[0]`";
     // Functions.
     unknown_function: "coords { x } mass { x: 1.0 } force { x: «sine»(x) }" => "unknown function `sine`; did you mean `sin`?";
-    function_called_as_a_reserved_word: "coords { x } mass { x: 1.0 } force { x: «mod»(t, 2.0) * mod(x, 2.0) }" => "unknown function `mod`";
+    function_called_as_a_reserved_word: "coords { x } mass { x: 1.0 } force { x: «mod»(t, 2.0) * mod(x, 2.0) }" => "`mod` is a reserved word of Rust";
     unsupported_function: "coords { x } mass { x: 1.0 } force { x: x.«floor»() }" => "unknown function `floor`; functions are sqrt";
     signum: "coords { x } mass { x: 1.0 } force { x: x.«signum»() }" => "write `sign`, which is 0 at 0";
     too_many_arguments: "coords { x } mass { x: 1.0 } force { x: «sin»(x, x) }" => "`sin` takes 1 argument, found 2";

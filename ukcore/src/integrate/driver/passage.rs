@@ -4,7 +4,7 @@
 //! the stages of one step leave a gap, those stages are evaluated on the constraints, and the step is as long, and has the order, that a
 //! smooth motion allows. Nothing is evaluated at the position itself.
 
-use super::{Driver, Refusal};
+use super::{Driver, LOST, Refusal};
 use crate::error::Error;
 use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
@@ -33,8 +33,8 @@ const TURNING: f64 = 0.25 * f64::EPSILON;
 /// The largest tolerance that this may lead to: the one where nothing is said.
 const COARSEST: f64 = 1e-9;
 
-/// A step over a position that comes out less exactly by no more than this many times, or than rounding of coordinates makes it, is granted
-/// that: a shorter one would be no better. So much more than what it came out with is granted then.
+/// Where a shorter step over a position comes out no better than a longer one, so many times the coarsest tolerance may be granted, or as
+/// much as rounding of coordinates makes it: so much more than what it came out with.
 const FAINTEST: f64 = 8.0;
 const AGAIN: f64 = 1.5;
 
@@ -96,6 +96,8 @@ pub(super) struct Passage {
     /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so no more than this is asked
     /// for; 0 before that.
     faint: f64,
+    /// What the last such step was off; infinite before there was one.
+    missed: f64,
     /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
@@ -127,7 +129,7 @@ impl Passage {
         let significance = self.distance * position.rate;
         let noise = match position.gap > 0.0 {
             true => TURNING,
-            false => NOISE * position.rounding,
+            false => NOISE.max(0.25 * KNOWN * position.rounding),
         };
         noise / (significance * significance)
     }
@@ -137,10 +139,12 @@ impl Passage {
         let granted = match (&self.ahead, refusal) {
             _ if self.faint == 0.0 => Some(COARSEST),
             (Some(position), Refusal::Inaccurate(error)) => {
+                let missed = std::mem::replace(&mut self.missed, error * self.eased[0]);
                 let significance = self.distance * position.rate;
                 let known = KNOWN * position.rounding / (significance * significance);
-                let most = known.max(FAINTEST * COARSEST);
-                Some(AGAIN * error * self.faint).filter(|granted| *granted <= most)
+                let most = known.clamp(FAINTEST * COARSEST, LOST);
+                let granted = AGAIN * self.missed;
+                (self.missed >= missed && granted <= most).then_some(granted)
             }
             _ => None,
         };
@@ -288,6 +292,7 @@ impl Driver<'_> {
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = (here.0 != t).then_some(here);
         (other.passage.ahead, other.passage.untried) = (Some(position), true);
+        other.passage.missed = f64::INFINITY;
         // Equal steps go on from its end.
         other.passage.bounded = !last;
         let (report, y) = other.travel();
@@ -520,6 +525,7 @@ impl Driver<'_> {
         }
         if self.passage.ahead.is_none() {
             (self.passage.untried, self.passage.faint) = (true, 0.0);
+            self.passage.missed = f64::INFINITY;
         }
         self.passage.ahead = Some(found);
         if good {

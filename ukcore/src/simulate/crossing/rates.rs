@@ -2,9 +2,10 @@
 //!
 //! What such rows leave beside the others, c, is no function of positions: along a motion it goes through zero, or by it. Where it goes
 //! through zero it says the same before and behind, that the motion does not go in the direction of c; so the motion goes on as it came,
-//! in the one way in which its velocity is continuous.
+//! in the one way in which its velocity is continuous. Where it goes by, c turns about in next to no time, and the motion with it. One
+//! direction is left to c where there is one freedom without it: then it goes through zero. Else rounding decides, as for positions.
 
-use super::{MOST, Search, WIDEST};
+use super::{GAP, MOST, Search, WIDEST, ZERO};
 use crate::integrate::Singular;
 use crate::mechanism::Evaluated;
 use crate::scalar::{Sloped, Slopes};
@@ -13,15 +14,11 @@ use crate::scan::{axpy, dot, largest};
 /// Constraints on velocities with less than this share of a combination take no part in it; nor do velocities in what it is.
 const PART: f64 = 1e-6;
 
-/// A search has come to its place where its step is this share of the first one.
-const THERE: f64 = 1e-3;
+/// A step that leaves more than this share of c has come to where it is least.
+const LESS: f64 = 0.5;
 
-/// What is left of c there, in time along the motion, is what a straight way there makes of a bent one, if it is less than this share of
-/// that way.
-const BENT: f64 = 0.03;
-
-/// c is known to so many roundings.
-const KNOWN: f64 = 64.0 * f64::EPSILON;
+/// Directions in which c is differentiated.
+const DIRECTIONS: usize = 6;
 
 /// What rows that all but depend on each other leave beside the others.
 struct Left {
@@ -29,28 +26,37 @@ struct Left {
     now: Vec<f64>,
     /// Its change along the motion, in a unit of time.
     slope: Vec<f64>,
+    /// What rounding of coordinates and time makes of it.
+    known: f64,
     /// Whether it has constraints on velocities in it, and is the same for all velocities.
     of_rates: bool,
 }
 
 impl Search<'_> {
-    /// Where a motion with velocity `u` comes nearest to the place where c vanishes. `None` where c is of constraints on positions alone.
-    pub(super) fn rates(&mut self, u: &[f64]) -> Option<Option<Singular>> {
+    /// Where a motion with velocity `u` comes nearest to the place where c vanishes, which is of as many rows as `count`. `None` where it is
+    /// of constraints on positions alone, or may be of some beside others.
+    pub(super) fn rates(&mut self, u: &[f64], count: usize) -> Option<Option<Singular>> {
+        let spec = self.mech.spec();
+        if spec.holonomic == spec.m() || count > 1 && spec.holonomic > 0 {
+            return None;
+        }
         let mut u = u.to_vec();
+        let mut before = f64::INFINITY;
         for k in 0..MOST {
             let Left {
                 now,
                 slope,
+                known,
                 of_rates,
             } = self.left(&u);
             if k == 0 && !of_rates {
                 return None;
             }
-            let square = dot(&slope, &slope);
-            if !(square > 0.0 && square < f64::INFINITY) {
+            let steep = dot(&slope, &slope).sqrt();
+            if !(steep > 0.0 && steep < f64::INFINITY) {
                 return Some(None);
             }
-            let step = -dot(&now, &slope) / square;
+            let step = -dot(&now, &slope) / (steep * steep);
             let size = step.abs();
             if k == 0 {
                 self.reach = size;
@@ -59,20 +65,25 @@ impl Search<'_> {
                 return Some(None);
             }
             let least = dot(&now, &now).sqrt();
-            if k > 0 && size <= THERE * self.reach || least <= KNOWN {
-                let open = least / square.sqrt();
-                let met = open <= BENT * self.reach || least <= KNOWN;
+            let met = least <= ZERO * known;
+            if met || least > LESS * before {
+                let gap = match self.q.len() - self.dense.cod.rank() {
+                    _ if met => 0.0,
+                    1 => 0.0,
+                    _ if least <= GAP * known => f64::NAN,
+                    _ => least / steep,
+                };
                 let cod = &self.dense.cod;
-                let lost = &cod.order()[cod.rank()..];
                 return Some(Some(Singular {
-                    t: self.t + step,
-                    gap: if met { 0.0 } else { open },
+                    t: self.t,
+                    gap,
                     significance: 0.0,
                     rate: 0.0,
                     rounding: 1.0,
-                    constraints: self.mech.spec().constraint_names(lost),
+                    constraints: spec.constraint_names(&cod.order()[cod.rank()..]),
                 }));
             }
+            before = least;
             self.t += step;
             axpy(step, &u, &mut self.q);
             if self.settle(&u).is_none() {
@@ -90,48 +101,54 @@ impl Search<'_> {
         let (n, m) = (spec.n(), spec.m());
         let mut basis = vec![0.0; n * (n - self.dense.cod.rank())];
         self.dense.cod.null_space(&mut basis);
-        // Directions of differentiation: along the motion, and by the size of its velocity.
-        let moving = |x: f64, rates: [f64; 2]| {
+        // Directions of differentiation: along the motion, by the size of its velocity, by that of the time, and by those of the coordinates
+        // with several signs.
+        let moving = |x: f64, rates: [f64; DIRECTIONS]| {
             let rate = |k: usize| rates.get(k).copied().unwrap_or(0.0);
             Sloped::new(x, Slopes::new(rate))
         };
-        let q: Vec<Sloped> = self
-            .q
-            .iter()
-            .zip(u)
-            .map(|(q, u)| moving(*q, [*u, 0.0]))
-            .collect();
-        let v: Vec<Sloped> = u.iter().map(|u| moving(*u, [0.0, *u])).collect();
+        let pairs = self.q.iter().zip(u).enumerate();
+        let q = pairs.map(|(i, (q, u))| {
+            let signed = |period: usize| if i / period % 2 == 0 { *q } else { -q };
+            moving(*q, [*u, 0.0, 0.0, *q, signed(1), signed(2)])
+        });
+        let q: Vec<Sloped> = q.collect();
+        let v = u.iter().map(|u| moving(*u, [0.0, *u, 0.0, 0.0, 0.0, 0.0]));
+        let v: Vec<Sloped> = v.collect();
+        let t = moving(self.t, [1.0, 0.0, self.t, 0.0, 0.0, 0.0]);
         let mut terms = Evaluated::<Sloped>::new(n, m);
-        terms.dynamics(&self.mech.sloped(), moving(self.t, [1.0, 0.0]), &q, &v);
-        let mut parts: [Vec<Vec<f64>>; 3] = Default::default();
-        for shares in &self.shares {
-            let of: [&dyn Fn(&Sloped) -> f64; 3] =
-                [&|a| a.re, &|a| a.eps.along(0), &|a| a.eps.along(1)];
-            for (part, of) in parts.iter_mut().zip(of) {
+        terms.dynamics(&self.mech.sloped(), t, &q, &v);
+        let left = |part: &dyn Fn(&Sloped) -> f64| -> Vec<Vec<f64>> {
+            let of = |shares: &Vec<f64>| {
                 let columns = terms.jacobian.chunks_exact(m);
                 let product = |column: &[Sloped]| {
                     let pairs = column.iter().zip(shares);
-                    pairs.map(|(a, share)| of(a) * share).sum()
+                    pairs.map(|(a, share)| part(a) * share).sum()
                 };
                 let mut x: Vec<f64> = columns.map(product).collect();
                 self.dense.metric.divide(&mut x);
-                part.push(basis.chunks_exact(n).map(|b| dot(b, &x)).collect());
-            }
-        }
+                basis.chunks_exact(n).map(|b| dot(b, &x)).collect()
+            };
+            self.shares.iter().map(of).collect()
+        };
+        let now = left(&|a| a.re);
+        let [slope, by_velocity, by_time, sizes @ ..] =
+            [0, 1, 2, 3, 4, 5].map(|k| left(&|a| a.eps.along(k)).concat());
         // Rows that are redundant everywhere leave nothing: what does is the combination that counts.
-        let [now, ..] = &parts;
         let most = now.iter().max_by(|a, b| dot(a, a).total_cmp(&dot(b, b)));
         let mut combined = vec![0.0; m];
-        for (shares, c) in self.shares.iter().zip(now) {
+        for (shares, c) in self.shares.iter().zip(&now) {
             let weight = most.map_or(0.0, |most| dot(c, most));
             axpy(weight, shares, &mut combined);
         }
         let on_rates = largest(&combined[spec.holonomic..]) > PART * largest(&combined);
-        let [now, slope, by_velocity] = parts.map(|part| part.concat());
+        let now = now.concat();
         let fixed = largest(&by_velocity) <= PART * largest(&now);
+        // Rows count as one.
+        let rounded = sizes.iter().map(|x| largest(x)).fold(0.0, f64::max);
         Left {
             of_rates: on_rates && fixed,
+            known: f64::EPSILON * (1.0 + largest(&by_time) + rounded),
             now,
             slope,
         }

@@ -157,8 +157,9 @@ impl<'m> Lowering<'m> {
 
     fn unknown_function(&mut self, name: &Ident, env: &Env<'m>) -> Value {
         let text = name.to_string();
-        // A reserved word of Rust.
-        let text = text.trim_start_matches("r#").to_owned();
+        if crate::parse::is_freed(&text) && !self.diag.is_empty() {
+            return Value::Error;
+        }
         let known = self.model.names.contains_key(&text) || self.lets.contains_key(&text);
         if known || env.args.iter().any(|(n, _)| *n == text) {
             let message =
