@@ -400,7 +400,6 @@ mechanisms! {
 }
 
 mechanisms! {
-    /// Held at the top of a hill by turning, with a damper across.
     Spun {
         coords { x, y, z }
         mass { x: 1, y: 1, z: 1 }
@@ -409,6 +408,7 @@ mechanisms! {
     }
 }
 
+/// A hill, and a damper across.
 #[test]
 fn what_turns_holds_a_top_whatever_damps_beside_it() {
     let found = equilibrium(Spun::default(), &guess(&[0.1, 0.2, 0.3]), &[]);

@@ -109,7 +109,13 @@ impl Search<'_> {
         };
         let pairs = self.q.iter().zip(u).enumerate();
         let q = pairs.map(|(i, (q, u))| {
-            let signed = |period: usize| if (i / period).is_multiple_of(2) { *q } else { -q };
+            let signed = |period: usize| {
+                if (i / period).is_multiple_of(2) {
+                    *q
+                } else {
+                    -q
+                }
+            };
             moving(*q, [*u, 0.0, 0.0, *q, signed(1), signed(2)])
         });
         let q: Vec<Sloped> = q.collect();
