@@ -322,13 +322,13 @@ fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
 
 /// What has become of `constraints` in a singular position.
 fn lost(constraints: &[String]) -> String {
-    match constraints {
-        [] => "a constraint is implied by the others or has no gradient".to_owned(),
-        [one] => format!("`{one}` is implied by the others or has no gradient"),
-        several => format!(
-            "{} are implied by the others or have no gradient",
-            quoted(several)
-        ),
+    let who = match constraints {
+        [] => "a constraint".to_owned(),
+        some => quoted(some),
+    };
+    match constraints.len() {
+        0 | 1 => format!("{who} is implied by the others or has no gradient"),
+        _ => format!("{who} are implied by the others or have no gradient"),
     }
 }
 

@@ -216,6 +216,25 @@ pub(crate) struct Singular {
 }
 
 impl Singular {
+    /// One at `t` that a step shows which begins a time `way` before it: by which share of that it is missed, if steps are neither too long
+    /// nor too short to tell.
+    pub(crate) fn seen(
+        t: f64,
+        way: f64,
+        missed: Option<f64>,
+        significance: f64,
+        constraints: Vec<String>,
+    ) -> Self {
+        Singular {
+            t,
+            gap: missed.map_or(f64::NAN, |share| share * way),
+            significance,
+            rate: way.recip(),
+            rounding: 1.0,
+            constraints,
+        }
+    }
+
     /// One that the motion is beside at `t`, with this significance, but that it does not lead to.
     pub(crate) fn beside(t: f64, significance: f64) -> Self {
         Singular {

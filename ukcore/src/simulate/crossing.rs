@@ -154,18 +154,8 @@ pub(super) fn between(
     // Steps are too long yet to tell, or it cannot be told.
     let way = (behind.t - t).abs();
     find_of(mech, near, None, rank).or_else(|| {
-        whole.then(|| Singular {
-            t: behind.t,
-            gap: if least < UNTOLD {
-                f64::NAN
-            } else {
-                least * way
-            },
-            significance: least,
-            rate: way.recip(),
-            rounding: 1.0,
-            constraints,
-        })
+        let missed = (least >= UNTOLD).then_some(least);
+        whole.then(|| Singular::seen(behind.t, way, missed, least, constraints))
     })
 }
 
@@ -231,17 +221,9 @@ pub(super) fn implied(mech: &Prepared, t: f64, vanishing: &Vanishing) -> Option<
     let constraints = mech.spec().constraint_names(lost);
     find_of(mech, near, Some(vanishing), *rank).or_else(|| {
         let way = (vanishing.t - t).abs();
-        (vanishing.t != near.t).then(|| Singular {
-            t: vanishing.t,
-            gap: match vanishing.least < UNTOLD {
-                true => f64::NAN,
-                false => vanishing.least * way,
-            },
-            significance,
-            rate: way.recip(),
-            rounding: 1.0,
-            constraints,
-        })
+        let missed = Some(vanishing.least).filter(|least| *least >= UNTOLD);
+        (vanishing.t != near.t)
+            .then(|| Singular::seen(vanishing.t, way, missed, significance, constraints))
     })
 }
 
@@ -461,19 +443,23 @@ impl<'a> Search<'a> {
             return None;
         }
         let doubt = doubt || open == 0.0 && self.is_isolated();
-        let lost = &self.dense.cod.order()[self.dense.cod.rank()..];
-        Some(Some(Singular {
+        Some(Some(self.met(match doubt {
+            true => f64::NAN,
+            false => (2.0 * open / largest).sqrt(),
+        })))
+    }
+
+    /// The position where the search has come to, with this gap.
+    fn met(&self, gap: f64) -> Singular {
+        let cod = &self.dense.cod;
+        Singular {
             t: self.t,
-            gap: if doubt {
-                f64::NAN
-            } else {
-                (2.0 * open / largest).sqrt()
-            },
+            gap,
             significance: 0.0,
             rate: 0.0,
             rounding: 1.0,
-            constraints: self.mech.spec().constraint_names(lost),
-        }))
+            constraints: (self.mech.spec()).constraint_names(&cod.order()[cod.rank()..]),
+        }
     }
 
     /// Whether motions beside this one do not come to such a position, as beside the apex of a cone: whether f bends in directions other
@@ -532,8 +518,14 @@ impl<'a> Search<'a> {
             let pairs = bend.iter_mut().zip(columns);
             pairs.for_each(|(x, column)| *x += sign * dot(column, shares));
         }
-        self.dense.metric.divide(&mut bend);
-        basis.chunks_exact(n).map(|x| dot(x, &bend)).collect()
+        self.along(bend, basis)
+    }
+
+    /// The parts along the vectors of `basis` of `x`, which is by coordinates.
+    fn along(&self, mut x: Vec<f64>, basis: &[f64]) -> Vec<f64> {
+        self.dense.metric.divide(&mut x);
+        let directions = basis.chunks_exact(x.len());
+        directions.map(|direction| dot(direction, &x)).collect()
     }
 
     /// The second derivatives of all residuals by each pair of directions, from b = −q̇ᵀ ∂²φ q̇, which is quadratic in q̇.

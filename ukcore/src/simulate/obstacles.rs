@@ -14,7 +14,7 @@ use crate::manifold::{Projector, STALLED};
 use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
 use crate::noise::Noise;
-use crate::scan::largest;
+use crate::scan::{axpy, largest};
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
@@ -191,8 +191,8 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     } else {
         // A row that vanishes there whatever the velocity says nothing for a moment alone.
         let ahead = found.t - near.t;
-        let place = near.q.iter().zip(&near.v).map(|(q, v)| q + ahead * v);
-        let place: Vec<f64> = place.collect();
+        let mut place = near.q.clone();
+        axpy(ahead, &near.v, &mut place);
         let [there, here] = [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
             let mut jacobian = vec![0.0; q.len() * spec.m()];
             mech.jacobian(t, q, old.v, &mut jacobian);
@@ -206,17 +206,10 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     }
     // Steps are too long yet to tell, or there is more than one way to go on.
     let way = (found.t - old.t).abs();
-    (found.t != near.t).then(|| Singular {
-        t: found.t,
-        gap: match if found.rest { *reached } else { found.least } < UNTOLD {
-            true => f64::NAN,
-            false => found.least * way,
-        },
-        significance: *reached,
-        rate: way.recip(),
-        rounding: 1.0,
-        constraints: vec![spec.constraints[*row].name.to_owned()],
-    })
+    let told = if found.rest { *reached } else { found.least } >= UNTOLD;
+    let missed = told.then_some(found.least);
+    let constraints = vec![spec.constraints[*row].name.to_owned()];
+    (found.t != near.t).then(|| Singular::seen(found.t, way, missed, *reached, constraints))
 }
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.

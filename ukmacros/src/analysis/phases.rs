@@ -37,16 +37,17 @@ pub(super) fn shared(system: &mut System, dynamics: &mut Dynamics) {
     if found.is_empty() {
         return;
     }
+    // One without a phase serves best.
+    let plain = |other: &&Id| g.is_zero(arguments[*other].1.phase);
+    let base = |alike: &Vec<Id>| *alike.iter().find(plain).unwrap_or(&alike[0]);
+    let bases: Map<Id, Id> = found
+        .iter()
+        .map(|(varies, alike)| (*varies, base(alike)))
+        .collect();
     let new = g.rewritten(&order, |g, id, _| {
         let argument = turned(g, id)?;
         let (varies, Argument { sign, phase }) = arguments.get(&argument)?;
-        let alike = found.get(varies)?;
-        // One without a phase serves best.
-        let plain = |other: &&Id| g.is_zero(arguments[*other].1.phase);
-        let base = *alike.iter().find(plain).unwrap_or(&alike[0]);
-        if base == argument {
-            return None;
-        }
+        let base = *bases.get(varies).filter(|base| **base != argument)?;
         let of = &arguments[&base].1;
         // With the base as s u + p and the argument as s' u + p': s s' base + (p' − s s' p).
         let turns = sign * of.sign;
@@ -72,9 +73,7 @@ fn turned(g: &Graph, id: Id) -> Option<Id> {
     let Node::Call(Func::Sin | Func::Cos, args) = g.node(id) else {
         return None;
     };
-    let uses = g.uses(args[0]);
-    let others = uses.coord || uses.velocity || uses.residual || uses.branch || uses.multiplier;
-    (uses.time && !others).then_some(args[0])
+    g.uses(args[0]).only_time().then_some(args[0])
 }
 
 /// What varies in an argument, and how it is made of that.

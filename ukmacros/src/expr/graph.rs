@@ -136,6 +136,15 @@ impl Uses {
         let along = self.coord || self.velocity || self.time || self.multiplier;
         !(along || self.residual || self.branch)
     }
+
+    /// t, and else nothing but parameters.
+    pub(crate) fn only_time(self) -> bool {
+        let others = Uses {
+            time: false,
+            ..self
+        };
+        self.time && others.constant()
+    }
 }
 
 /// The arena.

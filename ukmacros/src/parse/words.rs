@@ -17,8 +17,7 @@ pub(super) fn free(tokens: TokenStream, diag: &Diagnostics) -> TokenStream {
 
 /// Whether `name` stands in the place of a reserved word, of which that has been told.
 pub(crate) fn is_freed(name: &str) -> bool {
-    let word = name.strip_suffix('_');
-    word.is_some_and(|word| RESERVED.split(' ').any(|reserved| reserved == word))
+    name.strip_suffix('_').is_some_and(is_reserved)
 }
 
 fn any(tokens: &TokenStream) -> bool {
@@ -29,7 +28,7 @@ fn any(tokens: &TokenStream) -> bool {
     })
 }
 
-fn is_reserved(name: &Ident) -> bool {
+fn is_reserved<N: PartialEq<str> + ?Sized>(name: &N) -> bool {
     RESERVED.split(' ').any(|word| name == word)
 }
 

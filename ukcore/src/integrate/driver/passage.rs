@@ -94,10 +94,10 @@ pub(super) struct Passage {
     /// It has not been tried yet to pass it.
     untried: bool,
     /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so no more than this is asked
-    /// for; 0 before that.
-    faint: f64,
-    /// What the last such step was off; infinite before there was one.
-    missed: f64,
+    /// for.
+    faint: Option<f64>,
+    /// What the last such step was off.
+    missed: Option<f64>,
     /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
@@ -126,29 +126,34 @@ impl Passage {
 
     /// What rounding makes of velocities in the step in hand, beside a position.
     fn noise(&self, position: &Singular) -> f64 {
-        let significance = self.distance * position.rate;
         let noise = match position.gap > 0.0 {
             true => TURNING,
             false => NOISE.max(0.25 * KNOWN * position.rounding),
         };
-        noise / (significance * significance)
+        noise / self.closeness(position)
+    }
+
+    /// The square of the significance δ where the step in hand is nearest to the position.
+    fn closeness(&self, position: &Singular) -> f64 {
+        let significance = self.distance * position.rate;
+        significance * significance
     }
 
     /// A step over the position was refused: less is asked for in the next one, if that is as long.
     fn fade(&mut self, refusal: &Refusal) {
         let granted = match (&self.ahead, refusal) {
-            _ if self.faint == 0.0 => Some(COARSEST),
+            _ if self.faint.is_none() => Some(COARSEST),
             (Some(position), Refusal::Inaccurate(error)) => {
-                let missed = std::mem::replace(&mut self.missed, error * self.eased[0]);
-                let significance = self.distance * position.rate;
-                let known = KNOWN * position.rounding / (significance * significance);
+                let missed = error * self.eased[0];
+                let before = self.missed.replace(missed);
+                let known = KNOWN * position.rounding / self.closeness(position);
                 let most = known.clamp(FAINTEST * COARSEST, LOST);
-                let granted = AGAIN * self.missed;
-                (self.missed >= missed && granted <= most).then_some(granted)
+                let no_better = before.is_some_and(|before| missed >= before);
+                Some(AGAIN * missed).filter(|granted| no_better && *granted <= most)
             }
             _ => None,
         };
-        if let Some(granted) = granted {
+        if granted.is_some() {
             (self.faint, self.untried) = (granted, true);
         }
     }
@@ -168,10 +173,8 @@ impl Passage {
     pub(super) fn ease(&mut self, tolerance: &mut Tolerance, run: &Tolerance, v: &[f64]) -> bool {
         let mut eased = [run.relative, 1.0];
         if let Some(position) = &self.ahead {
-            let least = match self.faint > 0.0 && self.passing {
-                true => self.faint,
-                false => self.noise(position).min(COARSEST),
-            };
+            let noise = || self.noise(position).min(COARSEST);
+            let least = self.faint.filter(|_| self.passing).unwrap_or_else(noise);
             let floors = &run.floors[v.len()..];
             let sizes = v.iter().zip(floors).map(|(v, floor)| v.abs() / floor);
             let relative = least.max(run.relative);
@@ -292,7 +295,6 @@ impl Driver<'_> {
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = (here.0 != t).then_some(here);
         (other.passage.ahead, other.passage.untried) = (Some(position), true);
-        other.passage.missed = f64::INFINITY;
         // Equal steps go on from its end.
         other.passage.bounded = !last;
         let (report, y) = other.travel();
@@ -524,8 +526,8 @@ impl Driver<'_> {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
         if self.passage.ahead.is_none() {
-            (self.passage.untried, self.passage.faint) = (true, 0.0);
-            self.passage.missed = f64::INFINITY;
+            (self.passage.untried, self.passage.faint) = (true, None);
+            self.passage.missed = None;
         }
         self.passage.ahead = Some(found);
         if good {

@@ -67,21 +67,15 @@ impl Search<'_> {
             let least = dot(&now, &now).sqrt();
             let met = least <= ZERO * known;
             if met || least > LESS * before {
-                let gap = match self.q.len() - self.dense.cod.rank() {
-                    _ if met => 0.0,
-                    1 => 0.0,
-                    _ if least <= GAP * known => f64::NAN,
-                    _ => least / steep,
+                let freedoms = self.q.len() - self.dense.cod.rank();
+                let gap = if met || freedoms == 1 {
+                    0.0
+                } else if least <= GAP * known {
+                    f64::NAN
+                } else {
+                    least / steep
                 };
-                let cod = &self.dense.cod;
-                return Some(Some(Singular {
-                    t: self.t,
-                    gap,
-                    significance: 0.0,
-                    rate: 0.0,
-                    rounding: 1.0,
-                    constraints: spec.constraint_names(&cod.order()[cod.rank()..]),
-                }));
+                return Some(Some(self.met(gap)));
             }
             before = least;
             self.t += step;
@@ -131,9 +125,7 @@ impl Search<'_> {
                     let pairs = column.iter().zip(shares);
                     pairs.map(|(a, share)| part(a) * share).sum()
                 };
-                let mut x: Vec<f64> = columns.map(product).collect();
-                self.dense.metric.divide(&mut x);
-                basis.chunks_exact(n).map(|b| dot(b, &x)).collect()
+                self.along(columns.map(product).collect(), &basis)
             };
             self.shares.iter().map(of).collect()
         };
