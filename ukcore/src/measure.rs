@@ -3,16 +3,18 @@
 //! Coordinates of one unit are compared as they stand. Those of different units are compared by the rows of A in which both stand: a row of
 //! lengths that has the entry 1 for a position and the entry r for an angle says that a radian is worth the length r. The median of these
 //! levers counts, so that neither one long lever nor one that vanishes at a state decides; and since sines may all vanish at a state, A is
-//! looked at beside it, too, with angles turned. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
+//! looked at beside it, too, with angles turned, and where time turns rows of A, as those of a wheel that is steered, at another time. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
 //! no row, directly or by others, are compared by their inertias.
 //!
 //! Nor does an entry say anything that rounding alone makes: of the two ends of an axle the angle of a cart is a cos² + a sin² − …, which
 //! is 1e-17 where the axle goes through the centre, and would be worth any length.
 
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::largest_by;
 use crate::spec::Spec;
 
@@ -20,6 +22,9 @@ use crate::spec::Spec;
 /// share of their length. No sum of few of them is a multiple of a right angle.
 const TURN: f64 = FRAC_PI_2 * 0.618;
 const FURTHER: f64 = 0.19;
+
+/// A part of a row whose rate is across it by more than this share, squared, turns.
+const TURNS: f64 = 1e-6;
 
 /// A is looked at so far beside a state, as a share of its size, for how it changes where nothing turns.
 const BEND: f64 = 1e-6;
@@ -138,8 +143,9 @@ impl Measure {
             return;
         }
         self.turn(q);
+        let later = t + turning(mech, t, [q, v], &self.class).map_or(0.0, |time| TURN * time);
         let mut beside = std::mem::take(&mut self.jacobian);
-        mech.jacobian(t, &self.beside, v, &mut beside);
+        mech.jacobian(later, &self.beside, v, &mut beside);
         let m = mech.spec().m();
         self.entries.fill(0.0);
         for (c, i) in mech.spec().structure.jacobian_pattern {
@@ -349,6 +355,42 @@ impl Measure {
             false => 1.0,
         }
     }
+}
+
+/// The time in which rows of A turn by a radian as the time alone goes on, that of the middle one of those which do: what coordinates of
+/// one class have in a row turns where it changes across itself. `None` where none does.
+fn turning(mech: &Prepared, t: f64, [q, v]: [&[f64]; 2], class: &[usize]) -> Option<f64> {
+    let spec = mech.spec();
+    if !spec.structure.jacobian_driven {
+        return None;
+    }
+    let fixed = |x: &[f64]| -> Vec<Sloped> { x.iter().map(|x| Sloped::from_f64(*x)).collect() };
+    let mut terms = Evaluated::<Sloped>::new(spec.n(), spec.m());
+    let now = Sloped::new(t, Slopes::new(|_| 1.0));
+    terms.dynamics(&mech.sloped(), now, &fixed(q), &fixed(v));
+    // Of each part of a row the squares of its length and of that of its rate, and their product.
+    let mut parts: BTreeMap<(usize, usize), [f64; 3]> = BTreeMap::new();
+    for (c, i) in spec.structure.jacobian_pattern {
+        let entry = &terms.jacobian[i * spec.m() + c];
+        let (a, rate) = (entry.re, entry.eps.along(0));
+        let sums = parts.entry((*c, class[*i])).or_default();
+        let terms = [a * a, rate * rate, a * rate].into_iter();
+        sums.iter_mut()
+            .zip(terms)
+            .for_each(|(sum, term)| *sum += term);
+    }
+    let times = parts.values().map(|[length, rate, product]| {
+        let across = rate - product * product / length;
+        let turns = across > TURNS * rate;
+        Some((length / across).sqrt()).filter(|time| turns && time.is_finite())
+    });
+    let mut times: Vec<f64> = times.flatten().collect();
+    if times.is_empty() {
+        return None;
+    }
+    let middle = times.len() / 2;
+    let (_, time, _) = times.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(*time)
 }
 
 /// Groups of the n coordinates, by their numbers, no two of one in a row of the `pattern` of A, which has m.

@@ -230,6 +230,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: false,
+                jacobian_driven: false,
                 jacobian_fixed: &[],
                 massless: &[],
                 angles: &[2],

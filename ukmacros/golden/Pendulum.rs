@@ -206,6 +206,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: false,
+                jacobian_driven: false,
                 jacobian_fixed: &[],
                 massless: &[],
                 angles: &[],

@@ -245,6 +245,7 @@ const _: () = {
                 mass_diagonal: true,
                 mass_constant: true,
                 jacobian_constant: true,
+                jacobian_driven: false,
                 jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[],
                 angles: &[],

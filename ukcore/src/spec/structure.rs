@@ -17,6 +17,8 @@ pub struct Structure {
     pub mass_constant: bool,
     /// A depends on neither q, q̇ nor t.
     pub jacobian_constant: bool,
+    /// A depends on t.
+    pub jacobian_driven: bool,
     /// Entries (row, column) of A that depend on parameters alone: a row that has one which is not 0 does not vanish at any state.
     pub jacobian_fixed: &'static [(usize, usize)],
     /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
@@ -232,6 +234,7 @@ impl Structure {
         mass_diagonal: false,
         mass_constant: false,
         jacobian_constant: false,
+        jacobian_driven: false,
         jacobian_fixed: &[],
         massless: &[],
         angles: &[],

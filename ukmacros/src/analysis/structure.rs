@@ -11,6 +11,8 @@ pub(crate) struct Structure {
     pub(crate) mass_diagonal: bool,
     pub(crate) mass_constant: bool,
     pub(crate) jacobian_constant: bool,
+    /// A depends on t.
+    pub(crate) jacobian_driven: bool,
     /// Entries of A that depend on parameters alone.
     pub(crate) jacobian_fixed: Vec<(usize, usize)>,
     pub(crate) massless: Vec<usize>,
@@ -43,6 +45,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
     let fixed = (dynamics.jacobian.iter()).filter(|(_, a)| g.uses(**a).constant());
     let jacobian_fixed: Vec<(usize, usize)> = fixed.map(|(place, _)| *place).collect();
     let jacobian_constant = jacobian_fixed.len() == dynamics.jacobian.len();
+    let jacobian_driven = dynamics.jacobian.values().any(|a| g.uses(*a).time);
     let massless: Vec<usize> = (0..n).filter(|i| !massive.contains(i)).collect();
     let forces = dynamics.force.iter().chain(&dynamics.nonideal);
     let constraints = dynamics.rate.iter().chain(&dynamics.phi);
@@ -59,6 +62,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         mass_diagonal,
         mass_constant,
         jacobian_constant,
+        jacobian_driven,
         jacobian_fixed,
         massless,
         angles: angles(dynamics, g, model),
