@@ -74,9 +74,10 @@ impl Run<'_> {
             Outcome::Stopped => {}
             Outcome::Failed(trouble) => {
                 let mechanism = trajectory.mechanism();
+                let last = trajectory.last().unwrap_or(start);
                 return Err(obstacles::explain(
                     mechanism,
-                    start,
+                    [start, last],
                     &settings.tolerance,
                     trouble,
                 ));
