@@ -100,6 +100,8 @@ fn find_of(
         search.ways = significance.recip();
     }
     let mut rank = leading(pivots, RANK_CEILING.max(TOGETHER * significance));
+    // Those tried that do not go singular together.
+    let mut apart = Vec::new();
     for _ in 0..TRIES {
         if rank >= counting {
             return None;
@@ -110,7 +112,8 @@ fn find_of(
         // As many as all but depend on the others there.
         let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
         match found {
-            Some(found) if there == rank => {
+            // Others are near a position of their own, as a second loop may be.
+            Some(found) if there == rank || apart.contains(&there) => {
                 // Where it turns it is no nearer than that.
                 let rate = significance / (found.t - near.t).hypot(found.gap.max(0.0));
                 return Some(Singular {
@@ -121,7 +124,10 @@ fn find_of(
                 });
             }
             Some(_) => rank = there,
-            None => rank += 1,
+            None => {
+                apart.push(rank);
+                rank += 1;
+            }
         }
     }
     None
