@@ -29,5 +29,6 @@ mod switches;
 mod tied;
 mod tree;
 mod turned;
+mod two_loops;
 mod vanishing;
 mod wheels_across;

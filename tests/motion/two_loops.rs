@@ -1,0 +1,75 @@
+//! Loops that fold one shortly after the other, and have nothing to do with each other: each goes on in its own branch.
+
+use std::f64::consts::PI;
+
+use tests::assert_close;
+use ukcore::{Method, Simulation};
+
+ukcore::multibody! {
+    /// Two parallelograms, without gravity: all cranks turn evenly.
+    Pair {
+        params { l = 0.5, d = 0.8 }
+        bodies {
+            for i in 0..2 {
+                planar crank[i] { mass: 1, inertia: 0.02, centre: [l / 2, 0] }
+                planar other[i] { mass: 1, inertia: 0.02, centre: [l / 2, 0] }
+                planar bar[i] { mass: 2, inertia: 0.1, centre: [d / 2, 0] }
+            }
+        }
+        holonomic {
+            for i in 0..2 {
+                a[i]: pin(ground.at([0, 2 * i]), crank[i].at([0, 0]))
+                b[i]: pin(ground.at([d, 2 * i]), other[i].at([0, 0]))
+                c[i]: pin(crank[i].at([l, 0]), bar[i].at([0, 0]))
+                e[i]: pin(other[i].at([l, 0]), bar[i].at([d, 0]))
+            }
+        }
+        start from(one = 1.0, two = 1.0, w = 1.0, w2 = 1.0) {
+            crank[0].angle = one
+            crank[1].angle = two
+            dot(crank[0].angle) = w
+            dot(crank[1].angle) = w2
+            other[0].angle near one
+            other[1].angle near two
+            bar[0].centre near [d / 2 + l * cos(one), l * sin(one)]
+            bar[1].centre near [d / 2 + l * cos(two), 2 + l * sin(two)]
+        }
+    }
+}
+
+#[test]
+fn loops_that_fold_shortly_after_each_other_are_passed() {
+    for (k, after) in [1e-2, 2e-3, 1e-3, 2e-4, 3e-5, 1e-5, -1e-3, 1.0]
+        .into_iter()
+        .enumerate()
+    {
+        for (w, w2) in [(7.3, 18.1), (18.83, 10.81), (12.1, 12.3)] {
+            // The first loop folds then, the other one after that.
+            let folds = 0.4 + 0.013 * k as f64;
+            let (one, two) = (PI - w * folds, PI - w2 * (folds + after));
+            let start = [("one", one), ("two", two), ("w", w), ("w2", w2)].into();
+            let start = Pair::default().start("from", &start).expect("a start");
+            let end = folds + 0.06;
+            for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+                for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+                    let name = format!("{after:e}, {w}, {w2}, {method}, {tolerance:e}");
+                    let run = Simulation::new(Pair::default())
+                        .start(start.clone())
+                        .method(method)
+                        .tolerance(tolerance)
+                        .until(end);
+                    let run = run.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+                    let last = run.last().expect("an end");
+                    for (angles, at) in [
+                        (Pair::CRANK_ANGLE, [one + w * end, two + w2 * end]),
+                        (Pair::OTHER_ANGLE, [one + w * end, two + w2 * end]),
+                    ] {
+                        for (angle, at) in angles.into_iter().zip(at) {
+                            assert_close(&name, last.q[angle], at, 1e-7 + 30.0 * tolerance);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
