@@ -39,11 +39,11 @@ ukcore::multibody! {
 
 #[test]
 fn loops_that_fold_shortly_after_each_other_are_passed() {
-    for (k, after) in [1e-2, 2e-3, 1e-3, 2e-4, 3e-5, 1e-5, -1e-3, 1.0]
+    for (k, after) in [1e-2, 2e-3, 1e-3, 2e-4, 1e-5, 1e-6, 1e-8, 0.0, -1e-3, 1.0]
         .into_iter()
         .enumerate()
     {
-        for (w, w2) in [(7.3, 18.1), (18.83, 10.81), (12.1, 12.3)] {
+        for (w, w2) in [(7.3, 18.1), (18.83, 10.81), (12.1, 12.3), (7.7, 15.4)] {
             // The first loop folds then, the other one after that.
             let folds = 0.4 + 0.013 * k as f64;
             let (one, two) = (PI - w * folds, PI - w2 * (folds + after));
@@ -65,7 +65,7 @@ fn loops_that_fold_shortly_after_each_other_are_passed() {
                         (Pair::OTHER_ANGLE, [one + w * end, two + w2 * end]),
                     ] {
                         for (angle, at) in angles.into_iter().zip(at) {
-                            assert_close(&name, last.q[angle], at, 1e-7 + 30.0 * tolerance);
+                            assert_close(&name, last.q[angle], at, 1e-7 + 100.0 * tolerance);
                         }
                     }
                 }

@@ -426,8 +426,13 @@ impl<'a> Search<'a> {
             },
         );
         let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
-        for shares in &self.shares {
-            let e = dot(shares, &phi);
+        for (j, shares) in self.shares.iter().enumerate() {
+            // One alone is critical where the search has come to.
+            let differs = match self.shares.len() {
+                1 => 0.0,
+                _ => least(k, &matrix[j * k * k..], &right[j * k..], largest),
+            };
+            let e = dot(shares, &phi) + differs;
             let pairs = shares.iter().zip(&rounding);
             let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
                 + largest * (f64::EPSILON * self.scale).powi(2);
@@ -568,6 +573,17 @@ impl<'a> Search<'a> {
         }
         all
     }
+}
+
+/// By how much a function with these second derivatives by k directions, among the first numbers of `second`, and these slopes, negative,
+/// among those of `down`, differs where it is critical from what it is: not quite where others are that vanish with it.
+fn least(k: usize, second: &[f64], down: &[f64], largest: f64) -> f64 {
+    let mut system = Decomposition::new(k, k);
+    system.load(k).copy_from_slice(&second[..k * k]);
+    system.factor(&vec![1.0; k], &vec![largest.recip(); k], 1e-6);
+    let mut step = vec![0.0; k];
+    system.solve(&down[..k], &mut step);
+    -0.5 * dot(&down[..k], &step)
 }
 
 /// Takes off `x` its parts along orthonormal vectors.
