@@ -334,6 +334,7 @@ cases! {
     recursion: "coords { x } let f = |a| «f»(a); mass { x: 1.0 } force { x: f(x) }" => "`f` calls itself";
     exponent_not_constant: "coords { x } mass { x: 1.0 } force { x: x.powi(«x») }" => "`x` is not an integer constant";
     sum_without_function: "coords { x } mass { x: 1.0 } force { x: «sum(0..3, x)» }" => "`sum` is written `sum(0..N, |i| …)`";
+    integer_division_by_name: "coords { x } let half = |i| «i / 2»; mass { x: half(1) }" => "this, of 1 by 2, is an integer division, which Rust rounds to 0; it may stand in an index";
     integer_division: "coords { x } mass { x: «1 / 2» }" => "`1 / 2` is an integer division, which Rust rounds to 0; write `1.0 / 2.0`";
     division_by_zero: "coords { x } mass { x: 1.0 / «0.0» }" => "division by zero";
     // Vectors.

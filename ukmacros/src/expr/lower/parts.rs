@@ -403,9 +403,12 @@ impl<'m> Lowering<'m> {
             };
             let message = match at_home().next() {
                 Some(_) => format!(
-                    "it is written {}, found {} arguments",
+                    "it is written {}, found {}",
                     usages(&mut at_home()),
-                    args.len()
+                    match args.len() {
+                        1 => "1 argument".to_owned(),
+                        count => format!("{count} arguments"),
+                    }
                 ),
                 None => {
                     let (here, there) = match home {

@@ -182,10 +182,17 @@ impl<'m> Lowering<'m> {
             if let (true, Some(x), Some(y)) = (divides, whole, by)
                 && x.checked_rem(y).is_some_and(|r| r != 0)
             {
-                self.error(
-                    loc,
-                    format!("`{x} / {y}` is an integer division, which Rust rounds to {}; write `{x}.0 / {y}.0`", x / y),
-                );
+                let division = "is an integer division, which Rust rounds to";
+                let rounded = x / y;
+                let message = match (&first.kind, &operand.kind) {
+                    (ExprKind::Int(_), ExprKind::Int(_)) => {
+                        format!("`{x} / {y}` {division} {rounded}; write `{x}.0 / {y}.0`")
+                    }
+                    _ => format!(
+                        "this, of {x} by {y}, {division} {rounded}; it may stand in an index, and in a formula needs a number, as `2.0`"
+                    ),
+                };
+                self.error(loc, message);
                 return Value::Error;
             }
             whole = match (whole, by) {
