@@ -1,6 +1,5 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use tests::assert_close;
 use ukcore::simulate::Switching;
 use ukcore::{Error, Failure, Method, Simulation, State, lost_reactions};
 
@@ -398,64 +397,4 @@ fn a_singular_position_without_names_is_a_sentence() {
         text.contains("where a constraint is implied by the others"),
         "{text}"
     );
-}
-
-ukcore::multibody! {
-    /// A beam on three cranks, in gravity.
-    pub Beam {
-        params { l = 0.3, span = 1.0, m = 5.0, g = 9.81 }
-        bodies {
-            planar beam { mass: m, inertia: m * sq(2 * span) / 12 }
-            for i in 0..3 { planar crank[i] { mass: 1, inertia: 0.01, centre: [l / 2, 0] } }
-        }
-        gravity { [0, -g] }
-        holonomic {
-            for i in 0..3 {
-                axle[i]: pin(ground.at([(i - 1) * span, 0]), crank[i].at([0, 0]))
-                rod[i]: pin(crank[i].at([l, 0]), beam.at([(i - 1) * span, 0]))
-            }
-        }
-        start at(angle = -1.0, speed = 0.0) {
-            crank[0].angle = angle
-            dot(crank[0].angle) = speed
-            beam.x near l * cos(angle)
-            beam.y near l * sin(angle)
-            for i in 1..3 { crank[i].angle near angle }
-        }
-    }
-}
-
-/// A motion that turns so little beyond a position where branches cross that rounding makes more of it than the tolerance asks for is told
-/// of that position, not that it violates constraints or that steps are small.
-#[test]
-fn a_motion_that_turns_just_beyond_a_crossing_is_told_of_it() {
-    let mut refused = 0;
-    for (k, beyond) in [1e-3, 2e-3, 4e-3, 8e-3, 1.5e-2].into_iter().enumerate() {
-        for tolerance in [1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
-            let speed = (2.0 * 9.81 * 1.95 * (beyond + 1.0_f64.sin()) / 0.5475).sqrt();
-            let beam = Beam::default();
-            let start = beam.start("at", &[("speed", speed)].into());
-            let run = Simulation::new(beam)
-                .start(start.expect("a start"))
-                .tolerance(tolerance)
-                .until(0.4);
-            let name = format!("{k}, {tolerance:e}");
-            match run {
-                Ok(run) => {
-                    let end = run.last().expect("an end");
-                    let [one, others @ ..] = Beam::CRANK_ANGLE;
-                    for other in others {
-                        assert_close(&name, end.q[other], end.q[one], 1e-7);
-                    }
-                    assert!(run.energy_drift() < 1e-6, "{name}");
-                }
-                Err(failure) => {
-                    refused += 1;
-                    let (_, error) = place(&failure);
-                    assert!(matches!(error, Error::Singular { .. }), "{name}: {error}");
-                }
-            }
-        }
-    }
-    assert!(refused < 20, "{refused}");
 }

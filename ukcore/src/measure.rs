@@ -3,7 +3,7 @@
 //! Coordinates of one unit are compared as they stand. Those of different units are compared by the rows of A in which both stand: a row of
 //! lengths that has the entry 1 for a position and the entry r for an angle says that a radian is worth the length r. The median of these
 //! levers counts, so that neither one long lever nor one that vanishes at a state decides; and since sines may all vanish at a state, A is
-//! looked at beside it, too, with angles turned, and where time turns rows of A, as those of a wheel that is steered, at another time. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
+//! looked at beside it, too, with angles turned. So a change of units, of rows or of inertias changes no comparison. Coordinates that share
 //! no row, directly or by others, are compared by their inertias.
 //!
 //! Nor does an entry say anything that rounding alone makes: of the two ends of an axle the angle of a cart is a cos² + a sin² − …, which
@@ -55,6 +55,8 @@ pub(crate) struct Measure {
     class: Vec<usize>,
     classes: usize,
     kept: bool,
+    /// Whether A is looked at another time, too, where time turns its rows.
+    ahead: bool,
     turns: Vec<Turn>,
     /// The state beside.
     beside: Vec<f64>,
@@ -88,6 +90,7 @@ impl Measure {
             class,
             classes,
             kept: !looks,
+            ahead: false,
             turns,
             beside: vec![0.0; n],
             jacobian: vec![0.0; room],
@@ -125,6 +128,12 @@ impl Measure {
         self.kept = true;
     }
 
+    /// Looks at A another time, too, where time turns its rows: the lever of a steered wheel vanishes where it stands across. Not where ranks
+    /// are decided: what turns next to nothing does so in next to no end of time, where other rows may have grown.
+    pub(crate) fn look_ahead(&mut self) {
+        self.ahead = true;
+    }
+
     /// Compares rows with themselves until the next state.
     pub(crate) fn forget_rows(&mut self) {
         self.natural.fill(0.0);
@@ -143,7 +152,8 @@ impl Measure {
             return;
         }
         self.turn(q);
-        let later = t + turning(mech, t, [q, v], &self.class).map_or(0.0, |time| TURN * time);
+        let turning = self.ahead.then(|| turning(mech, t, [q, v], &self.class));
+        let later = t + turning.flatten().map_or(0.0, |time| TURN * time);
         let mut beside = std::mem::take(&mut self.jacobian);
         mech.jacobian(later, &self.beside, v, &mut beside);
         let m = mech.spec().m();

@@ -215,9 +215,6 @@ pub(crate) struct Singular {
     pub(crate) constraints: Vec<String>,
 }
 
-/// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for near a singular position.
-pub(crate) const NOISE: f64 = 256.0 * f64::EPSILON;
-
 impl Singular {
     /// One at `t` that a step shows which begins a time `way` before it: by which share of that it is missed, if steps are neither too long
     /// nor too short to tell.

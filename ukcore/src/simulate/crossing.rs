@@ -40,6 +40,9 @@ const MOST: usize = 20;
 /// A Newton step longer than the first one by this factor leads elsewhere.
 const WIDEST: f64 = 2.0;
 
+/// The share of the way from one position to another from where the other one is looked for.
+const BEFORE: f64 = 0.9;
+
 /// Differences of A for the second derivatives of f are taken over this share of the coordinates; these are known to the share `BENT`.
 const DIFFERENCE: f64 = 1e-5;
 const BENT: f64 = 1e-3;
@@ -93,13 +96,13 @@ fn find_of(
         search.compare(vanishing);
     }
     search.factor(&near.v)?;
-    let pivots = search.dense.cod.pivots();
+    let pivots = search.dense.cod.pivots().to_vec();
     let counting = pivots.len().min(most);
     let significance = pivots[..counting].last().copied()?;
     if vanishing.is_some() {
         search.ways = significance.recip();
     }
-    let mut rank = leading(pivots, RANK_CEILING.max(TOGETHER * significance));
+    let mut rank = leading(&pivots, RANK_CEILING.max(TOGETHER * significance));
     // Those tried that do not go singular together.
     let mut apart = Vec::new();
     for _ in 0..TRIES {
@@ -112,14 +115,17 @@ fn find_of(
         // As many as all but depend on the others there.
         let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
         match found {
-            // Others are near a position of their own, as a second loop may be.
             Some(found) if there == rank || apart.contains(&there) => {
                 // Where it turns it is no nearer than that.
                 let rate = significance / (found.t - near.t).hypot(found.gap.max(0.0));
-                return Some(Singular {
+                let rounding = (search.scale * rate).clamp(1.0, f64::MAX);
+                // Others are near a position of their own, as a second loop may be.
+                let passed = there == rank
+                    || there + 1 == rank && search.other_is_met(near, (found.t, rank), &pivots);
+                return passed.then_some(Singular {
                     significance,
                     rate,
-                    rounding: (search.scale * rate).clamp(1.0, f64::MAX),
+                    rounding,
                     ..found
                 });
             }
@@ -237,10 +243,12 @@ impl<'a> Search<'a> {
     fn new(mech: &'a Prepared, near: &State) -> Self {
         let spec = mech.spec();
         let (n, m) = (spec.n(), spec.m());
+        let mut dense = Dense::new(spec);
+        dense.measure.look_ahead();
         Search {
             mech,
             noise: Noise::new(mech),
-            dense: Dense::new(spec),
+            dense,
             terms: Evaluated::new(n, m),
             rank: m,
             reach: 0.0,
@@ -341,6 +349,23 @@ impl<'a> Search<'a> {
             self.directions.push(x);
         }
         Some(())
+    }
+
+    /// Whether branches cross, too, where the row goes singular that has least left beside those of the position just found, at a time `t`
+    /// with so many rows, as what it has left tells there and near by: a step over the one may go over the other.
+    fn other_is_met(&mut self, near: &State, (t, rank): (f64, usize), pivots: &[f64]) -> bool {
+        let Some(there) = self.dense.cod.pivots().get(rank - 1).copied() else {
+            return false;
+        };
+        let left = there * (t - near.t) / (pivots[rank - 1] - there);
+        // There the first one has more left.
+        let before = t + BEFORE * left;
+        (self.t, self.q, self.reach) = (before, near.q.clone(), 0.0);
+        axpy(before - near.t, &near.v, &mut self.q);
+        let found = self.critical(&near.v, 1);
+        found.is_some_and(|found| {
+            found.gap == 0.0 && (found.t - t - left).abs() < (left * 0.5).abs()
+        })
     }
 
     /// Searches q* with as many barred directions as `count`, for a motion with velocity `v`.

@@ -9,7 +9,7 @@ use crate::diagnose;
 use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{NOISE, Singular, Step, Tolerance, Trouble};
+use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::{Projector, STALLED};
 use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
@@ -332,32 +332,11 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
     (!constraints.is_empty()).then(|| start.locate(Error::Singular { constraints }))
 }
 
-/// The constraints that come to imply each other where branches cross, beside the state of a run that comes to nothing, or contradicts them,
-/// for being so near that rounding makes more of velocities than the tolerance `relative`.
-fn crossed(
-    mechanism: &Prepared,
-    last: Sample<'_>,
-    trouble: &Trouble,
-    relative: f64,
-) -> Option<Vec<String>> {
-    if !matches!(trouble.error, Error::StepTooSmall { .. }) && !trouble.is_contradiction() {
-        return None;
-    }
-    let near = |state: &State| {
-        let found = crossing::find(mechanism, state, None)?;
-        let crosses = found.gap == 0.0 || found.gap.is_nan();
-        let known = NOISE / (found.significance * found.significance);
-        (crosses && known > relative).then_some(found.constraints)
-    };
-    // What has come to nothing may be off the branch of the motion.
-    near(&trouble.state).or_else(|| near(&last.to_state()))
-}
-
-/// The error of a run from `start` with this tolerance, which was seen last at `last`, that ends with `trouble`; where its steps became too small, with the acceleration
+/// The error of a run from `start` with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration
 /// that has them so.
 pub(super) fn explain(
     mechanism: &Prepared,
-    [start, last]: [Sample<'_>; 2],
+    start: Sample<'_>,
     tolerance: &Tolerance,
     mut trouble: Trouble,
 ) -> Error {
@@ -377,9 +356,6 @@ pub(super) fn explain(
     );
     if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
         trouble.error = limit;
-    }
-    if let Some(constraints) = crossed(mechanism, last, &trouble, tolerance.relative) {
-        trouble.error = Error::Singular { constraints };
     }
     if let Error::StepTooSmall { step, fastest } = &mut trouble.error {
         let step = *step;

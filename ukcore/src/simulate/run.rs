@@ -74,10 +74,9 @@ impl Run<'_> {
             Outcome::Stopped => {}
             Outcome::Failed(trouble) => {
                 let mechanism = trajectory.mechanism();
-                let last = trajectory.last().unwrap_or(start);
                 return Err(obstacles::explain(
                     mechanism,
-                    [start, last],
+                    start,
                     &settings.tolerance,
                     trouble,
                 ));

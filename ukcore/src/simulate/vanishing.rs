@@ -28,7 +28,7 @@ use crate::zero::locate;
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
 
-/// Tolerance up to which steps of DOP853 have a stage near the places where constraints come to imply each other.
+/// Tolerance below which steps of DOP853 have a stage near the places where constraints come to imply each other.
 const CLOSE: f64 = 1e-8;
 
 /// Combinations of rows may lose so much faster than they have done what they have beside each other.
@@ -199,7 +199,7 @@ impl RowWatch {
     /// imply each other, combinations of rows are not looked at.
     pub(super) fn new(method: Method, tolerance: f64) -> Self {
         RowWatch {
-            together: method != Method::Dop853 || tolerance > CLOSE,
+            together: method != Method::Dop853 || tolerance >= CLOSE,
             ..RowWatch::default()
         }
     }

@@ -10,7 +10,7 @@ use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Method, NOISE, Outcome, Purpose, Singular, Tolerance};
+use crate::integrate::{Method, Outcome, Purpose, Singular, Tolerance};
 use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -24,7 +24,10 @@ const BEHIND: f64 = 0.2;
 /// size.
 const BOLD: f64 = 16.0;
 
-/// The same as [`NOISE`], where the motion turns, and most of the error is across it.
+/// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for in a passage.
+const NOISE: f64 = 256.0 * f64::EPSILON;
+
+/// The same where the motion turns, and most of the error is across it.
 const TURNING: f64 = 0.25 * f64::EPSILON;
 
 /// The largest tolerance that this may lead to: the one where nothing is said.

@@ -129,8 +129,8 @@ impl Running {
         let here = Sample::of(self.course.now.t, y);
         let trouble = self.course.explain(error, here);
         let mechanism = self.recorder.trajectory.mechanism();
-        let seen = [Sample::from(&self.start), here];
-        obstacles::explain(mechanism, seen, &self.settings.tolerance, trouble)
+        let start = Sample::from(&self.start);
+        obstacles::explain(mechanism, start, &self.settings.tolerance, trouble)
     }
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.
