@@ -129,7 +129,7 @@ impl Measure {
     }
 
     /// Looks at A another time, too, where time turns its rows: the lever of a steered wheel vanishes where it stands across. Not where ranks
-    /// are decided: what turns next to nothing does so in next to no end of time, where other rows may have grown.
+    /// are decided: what hardly turns leads far ahead, where other rows may have grown.
     pub(crate) fn look_ahead(&mut self) {
         self.ahead = true;
     }

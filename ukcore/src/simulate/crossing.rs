@@ -4,26 +4,19 @@
 //! of the others is a function f of the direction u of the motion and of the directions W that they bar, and at the singular position q*
 //! its derivatives by all of these vanish: f = e + ½ zᵀH z. Where e = 0 branches of the motion cross in q*, smooth each for itself, and a
 //! motion passes it in the branch it came on: the one without a jump of its velocity. Where e is not 0 no motion gets there: it turns,
-//! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known. Constraints on velocities are
-//! derivatives of no f; for these see [`rates`].
+//! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
-mod rates;
+mod search;
 
 use super::vanishing::Vanishing;
 use crate::assemble::State;
-use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::integrate::sample::Sample;
 use crate::measure::Measure;
-use crate::mechanism::{Evaluated, Prepared};
-use crate::noise::Noise;
-use crate::pinv::Decomposition;
-use crate::scan::{axpy, dot, largest};
-use crate::solver::{CLEAR, RANK_CEILING, RANK_TOLERANCE, leading};
-
-/// Roundings of f up to which e counts as zero, and above which it does not.
-const ZERO: f64 = 8.0;
-const GAP: f64 = 1e3;
+use crate::mechanism::Prepared;
+use crate::scan::axpy;
+use crate::solver::{CLEAR, RANK_CEILING, leading};
+use search::Search;
 
 /// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
 const TOGETHER: f64 = 2.0;
@@ -34,44 +27,9 @@ const TRIES: usize = 4;
 /// Significance of a row beside a reversed combination below which steps are short enough to tell what becomes of the motion.
 const UNTOLD: f64 = 1e-5;
 
-/// Newton steps at most.
-const MOST: usize = 20;
-
-/// A Newton step longer than the first one by this factor leads elsewhere.
-const WIDEST: f64 = 2.0;
-
-/// The share of the way from one position to another from where the other one is looked for.
-const BEFORE: f64 = 0.9;
-
-/// Differences of A for the second derivatives of f are taken over this share of the coordinates; these are known to the share `BENT`.
-const DIFFERENCE: f64 = 1e-5;
-const BENT: f64 = 1e-3;
-
 /// Shares of the coordinates by which a place beside a singular position is off it, and of that way by which it is found again.
 const SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 const BESIDE: f64 = 0.1;
-
-/// A search for singular positions near a state, in buffers that are allocated where the first one is near.
-pub(super) struct Search<'a> {
-    mech: &'a Prepared,
-    noise: Noise,
-    dense: Dense,
-    terms: Evaluated,
-    /// As many rows as count.
-    rank: usize,
-    /// Length of the first step, in time as the directions are.
-    reach: f64,
-    t: f64,
-    q: Vec<f64>,
-    /// The time in which the motion goes as far as coordinates are large: they are known to ε of that.
-    scale: f64,
-    /// How many times as far as q* a row that vanishes there gets as large as it has been: coordinates are, or have been, as large as that.
-    ways: f64,
-    /// u and W, in units of coordinates by time; time goes on along u alone.
-    directions: Vec<Vec<f64>>,
-    /// Multipliers of the rows that make up f, one column for each that is left out.
-    shares: Vec<Vec<f64>>,
-}
 
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
 /// Where a row is known to vanish by itself, its size is compared with the given one.
@@ -110,7 +68,7 @@ fn find_of(
             return None;
         }
         search.rank = rank;
-        (search.t, search.q, search.reach) = (near.t, near.q.clone(), 0.0);
+        search.set_out(near, near.t);
         let found = search.critical(&near.v, counting - rank);
         // As many as all but depend on the others there.
         let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
@@ -150,7 +108,7 @@ pub(super) fn between(
 ) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     let mut weakest = |at: &State| {
-        (search.t, search.q) = (at.t, at.q.clone());
+        search.set_out(at, at.t);
         search.factor(&at.v)?;
         let cod = &search.dense.cod;
         let lost = &cod.order()[leading(cod.pivots(), CLEAR)..];
@@ -237,383 +195,4 @@ pub(super) fn implied(mech: &Prepared, t: f64, vanishing: &Vanishing) -> Option<
         (vanishing.t != near.t)
             .then(|| Singular::seen(vanishing.t, way, missed, significance, constraints))
     })
-}
-
-impl<'a> Search<'a> {
-    fn new(mech: &'a Prepared, near: &State) -> Self {
-        let spec = mech.spec();
-        let (n, m) = (spec.n(), spec.m());
-        let mut dense = Dense::new(spec);
-        dense.measure.look_ahead();
-        Search {
-            mech,
-            noise: Noise::new(mech),
-            dense,
-            terms: Evaluated::new(n, m),
-            rank: m,
-            reach: 0.0,
-            t: near.t,
-            q: near.q.clone(),
-            scale: 0.0,
-            ways: 0.0,
-            directions: Vec::new(),
-            shares: Vec::new(),
-        }
-    }
-
-    /// Compares a row with what it has been.
-    fn compare(&mut self, vanishing: &Vanishing) {
-        self.dense.sizes[vanishing.row] = vanishing.size;
-        self.dense.measure.keep(&vanishing.scale);
-    }
-
-    /// Evaluates and factors the equations where the search stands, and takes the rank.
-    fn factor(&mut self, v: &[f64]) -> Option<()> {
-        self.terms.dynamics(self.mech, self.t, &self.q, v);
-        let massless = !self.mech.spec().structure.massless.is_empty();
-        let Evaluated { mass, jacobian, .. } = &self.terms;
-        let measure = &mut self.dense.measure;
-        measure.take(self.mech, self.t, [&self.q, v], jacobian, mass);
-        let factored =
-            (self.dense).factor_as_needed(massless, mass, self.terms.rows(), RANK_TOLERANCE);
-        factored.ok()?;
-        let rank = self.rank.min(self.dense.cod.pivots().len());
-        self.dense.set_rank(rank, &self.terms.mass).ok()
-    }
-
-    /// φ, zero for constraints that have none.
-    fn position(&self) -> Vec<f64> {
-        let mut phi = vec![0.0; self.mech.spec().m()];
-        let holonomic = self.mech.spec().holonomic;
-        self.mech.residual(self.t, &self.q, &mut phi[..holonomic]);
-        phi
-    }
-
-    /// Moves onto the constraints that count, and factors the equations there.
-    fn settle(&mut self, v: &[f64]) -> Option<()> {
-        self.factor(v)?;
-        let mut change = vec![0.0; self.q.len()];
-        let phi = self.position();
-        self.dense.least_norm(&phi, &mut change);
-        axpy(-1.0, &change, &mut self.q);
-        self.factor(v)
-    }
-
-    /// The part of `v` that the constraints that count allow.
-    fn allowed(&mut self, v: &[f64]) -> Vec<f64> {
-        let (mut rate, mut change) = (vec![0.0; self.mech.spec().m()], vec![0.0; v.len()]);
-        let mut v = v.to_vec();
-        (self.mech).residual_rate(self.t, &self.q, &v, &mut rate);
-        self.dense.least_norm(&rate, &mut change);
-        axpy(-1.0, &change, &mut v);
-        v
-    }
-
-    /// The multipliers of f.
-    fn share(&mut self) {
-        let m = self.mech.spec().m();
-        let rank = self.dense.cod.rank();
-        let mut basis = vec![0.0; m * (m - rank)];
-        self.dense.cod.dependences(&mut basis);
-        let scaled = |shares: &[f64]| {
-            let pairs = shares.iter().zip(&self.dense.row_scale);
-            pairs.map(|(share, scale)| share * scale).collect()
-        };
-        self.shares = basis.chunks_exact(m).map(scaled).collect();
-    }
-
-    /// `count` directions that the rows left out bar, as fast as `speed`.
-    fn bar(&mut self, count: usize, speed: f64) -> Option<()> {
-        let mut barred: Vec<Vec<f64>> = Vec::new();
-        for shares in &self.shares {
-            let columns = self.terms.jacobian.chunks_exact(shares.len());
-            let mut x: Vec<f64> = columns.map(|column| dot(column, shares)).collect();
-            self.dense.metric.divide(&mut x);
-            barred.push(x);
-        }
-        for _ in 0..count {
-            let norm = |x: &Vec<f64>| dot(x, x).sqrt();
-            let longest =
-                (0..barred.len()).max_by(|i, j| norm(&barred[*i]).total_cmp(&norm(&barred[*j])))?;
-            let mut x = barred.swap_remove(longest);
-            let length = norm(&x);
-            if length == 0.0 || !length.is_finite() {
-                return None;
-            }
-            x.iter_mut().for_each(|x| *x /= length);
-            for other in &mut barred {
-                axpy(-dot(&x, other), &x, other);
-            }
-            self.dense.metric.divide_transposed(&mut x);
-            x.iter_mut().for_each(|x| *x *= speed);
-            self.directions.push(x);
-        }
-        Some(())
-    }
-
-    /// Whether branches cross, too, where the row goes singular that has least left beside those of the position just found, at a time `t`
-    /// with so many rows, as what it has left tells there and near by: a step over the one may go over the other.
-    fn other_is_met(&mut self, near: &State, (t, rank): (f64, usize), pivots: &[f64]) -> bool {
-        let Some(there) = self.dense.cod.pivots().get(rank - 1).copied() else {
-            return false;
-        };
-        let left = there * (t - near.t) / (pivots[rank - 1] - there);
-        // There the first one has more left.
-        let before = t + BEFORE * left;
-        (self.t, self.q, self.reach) = (before, near.q.clone(), 0.0);
-        axpy(before - near.t, &near.v, &mut self.q);
-        let found = self.critical(&near.v, 1);
-        found.is_some_and(|found| {
-            found.gap == 0.0 && (found.t - t - left).abs() < (left * 0.5).abs()
-        })
-    }
-
-    /// Searches q* with as many barred directions as `count`, for a motion with velocity `v`.
-    fn critical(&mut self, v: &[f64], count: usize) -> Option<Singular> {
-        self.settle(v)?;
-        let u = self.allowed(v);
-        let columns = u.iter().zip(self.terms.mass.chunks_exact(u.len()));
-        let energy = columns.map(|(v, column)| v * dot(column, &u)).sum::<f64>();
-        let speed = energy.sqrt();
-        if !(speed > 0.0 && speed < f64::INFINITY) {
-            return None;
-        }
-        let measure = &self.dense.measure;
-        self.scale = measure.size(&self.q) / measure.size(&u);
-        self.share();
-        if let Some(found) = self.rates(&u, count) {
-            return found;
-        }
-        self.directions = vec![u];
-        self.bar(count, speed)?;
-        for _ in 0..MOST {
-            if let Some(found) = self.newton()? {
-                return Some(found);
-            }
-        }
-        None
-    }
-
-    /// One step towards q*; what is found there if it is the last one. `None` if there is none.
-    fn newton(&mut self) -> Option<Option<Singular>> {
-        let u = self.directions[0].clone();
-        self.settle(&u)?;
-        self.share();
-        let k = self.directions.len();
-        // f, its slopes and its second derivatives, for each of its components.
-        let phi = self.position();
-        let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
-        (self.noise).go(self.mech, self.t, [&self.q, &u], |_| [0.0; 2]);
-        self.noise.residual(&mut rounding);
-        self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
-        let a = self.terms.rows();
-        let mut slopes = vec![rate];
-        for w in &self.directions[1..] {
-            slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());
-        }
-        let curvatures = self.curvatures();
-        let equations = self.shares.len() * k;
-        let mut system = Decomposition::new(equations, k);
-        let mut right = Vec::with_capacity(equations);
-        let matrix = system.load(equations);
-        for (j, shares) in self.shares.iter().enumerate() {
-            for (row, slope) in slopes.iter().enumerate() {
-                right.push(-dot(shares, slope));
-                for column in 0..k {
-                    matrix[(j * k + row) * k + column] = dot(shares, &curvatures[row * k + column]);
-                }
-            }
-        }
-        let matrix = matrix.to_vec();
-        let largest = largest(&matrix);
-        if !(largest > 0.0 && largest < f64::INFINITY) {
-            return None;
-        }
-        system.factor(&vec![1.0; k], &vec![largest.recip(); equations], 1e-6);
-        if system.rank() < k {
-            return None;
-        }
-        let mut step = vec![0.0; k];
-        system.solve(&right, &mut step);
-        let size = dot(&step, &step).sqrt();
-        if self.reach == 0.0 {
-            self.reach = size;
-            self.scale = self.scale.max(self.ways * size);
-        }
-        if size.is_nan() || size > WIDEST * self.reach {
-            return None;
-        }
-        let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(
-            0.0,
-            |most: f64, (right, rows)| {
-                let pairs = right.iter().zip(rows.chunks_exact(k));
-                pairs.fold(most, |most, (b, row)| most.max((b - dot(row, &step)).abs()))
-            },
-        );
-        let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
-        for (j, shares) in self.shares.iter().enumerate() {
-            // One alone is critical where the search has come to.
-            let differs = match self.shares.len() {
-                1 => 0.0,
-                _ => least(k, &matrix[j * k * k..], &right[j * k..], largest),
-            };
-            let e = dot(shares, &phi) + differs;
-            let pairs = shares.iter().zip(&rounding);
-            let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
-                + largest * (f64::EPSILON * self.scale).powi(2);
-            last &= largest * size * size <= noise;
-            agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
-            if e.abs() > ZERO * noise {
-                open = open.max(e.abs());
-                doubt |= e.abs() <= GAP * noise;
-            }
-        }
-        self.t += step[0];
-        for (direction, part) in self.directions.iter().zip(&step) {
-            axpy(*part, direction, &mut self.q);
-        }
-        if !last {
-            return Some(None);
-        }
-        if !agree {
-            return None;
-        }
-        let doubt = doubt || open == 0.0 && self.is_isolated();
-        Some(Some(self.met(match doubt {
-            true => f64::NAN,
-            false => (2.0 * open / largest).sqrt(),
-        })))
-    }
-
-    /// The position where the search has come to, with this gap.
-    fn met(&self, gap: f64) -> Singular {
-        let cod = &self.dense.cod;
-        Singular {
-            t: self.t,
-            gap,
-            significance: 0.0,
-            rate: 0.0,
-            rounding: 1.0,
-            constraints: (self.mech.spec()).constraint_names(&cod.order()[cod.rank()..]),
-        }
-    }
-
-    /// Whether motions beside this one do not come to such a position, as beside the apex of a cone: whether f bends in directions other
-    /// than those of u and W, and their second derivatives do not depend on these. Then the nearest motions on both sides of this one go
-    /// different ways.
-    fn is_isolated(&mut self) -> bool {
-        let (n, rank, k) = (self.q.len(), self.dense.cod.rank(), self.directions.len());
-        if n - rank <= k {
-            return false;
-        }
-        let mut basis = vec![0.0; n * (n - rank)];
-        self.dense.cod.null_space(&mut basis);
-        // A direction like no other, as fast as the motion.
-        let mut other = vec![0.0; n];
-        let mut part = 1.0;
-        for column in basis.chunks_exact(n) {
-            axpy(part, column, &mut other);
-            part = if part > 1.0 { part - 0.7 } else { part + 0.6 };
-        }
-        self.dense.metric.divide_transposed(&mut other);
-        let measure = &self.dense.measure;
-        let speed = measure.size(&self.directions[0]) / measure.size(&other);
-        other.iter_mut().for_each(|x| *x *= speed);
-        let shares = self.shares.clone();
-        shares.iter().any(|shares| {
-            let mut known: Vec<Vec<f64>> = Vec::new();
-            let mut size = 0.0_f64;
-            for i in 0..k {
-                let direction = self.directions[i].clone();
-                let mut bend = self.bend(shares, &direction, &basis);
-                size = size.max(dot(&bend, &bend).sqrt());
-                reject(&mut bend, &known);
-                let length = dot(&bend, &bend).sqrt();
-                if length > BENT * size {
-                    bend.iter_mut().for_each(|x| *x /= length);
-                    known.push(bend);
-                }
-            }
-            let mut bend = self.bend(shares, &other, &basis);
-            size = size.max(dot(&bend, &bend).sqrt());
-            reject(&mut bend, &known);
-            dot(&bend, &bend).sqrt() > BENT * size
-        })
-    }
-
-    /// The second derivatives of the f that `shares` make up, by `direction` and each vector of `basis`, by differences of A.
-    fn bend(&mut self, shares: &[f64], direction: &[f64], basis: &[f64]) -> Vec<f64> {
-        let n = direction.len();
-        let mut bend = vec![0.0; n];
-        for sign in [1.0, -1.0] {
-            let mut q = self.q.clone();
-            axpy(sign * DIFFERENCE * self.scale, direction, &mut q);
-            let jacobian = &mut self.terms.jacobian;
-            (self.mech).jacobian(self.t, &q, &self.directions[0], jacobian);
-            let columns = jacobian.chunks_exact(shares.len());
-            let pairs = bend.iter_mut().zip(columns);
-            pairs.for_each(|(x, column)| *x += sign * dot(column, shares));
-        }
-        self.along(bend, basis)
-    }
-
-    /// The parts along the vectors of `basis` of `x`, which is by coordinates.
-    fn along(&self, mut x: Vec<f64>, basis: &[f64]) -> Vec<f64> {
-        self.dense.metric.divide(&mut x);
-        let directions = basis.chunks_exact(x.len());
-        directions.map(|direction| dot(direction, &x)).collect()
-    }
-
-    /// The second derivatives of all residuals by each pair of directions, from b = −q̇ᵀ ∂²φ q̇, which is quadratic in q̇.
-    fn curvatures(&mut self) -> Vec<Vec<f64>> {
-        let k = self.directions.len();
-        let mut b = |parts: &[(usize, f64)]| -> Vec<f64> {
-            let mut v = self.directions[0].clone();
-            for (i, sign) in parts {
-                axpy(*sign, &self.directions[*i], &mut v);
-            }
-            self.terms.dynamics(self.mech, self.t, &self.q, &v);
-            self.terms.rhs.clone()
-        };
-        let along = b(&[]);
-        let mut all = vec![Vec::new(); k * k];
-        let sides: Vec<[Vec<f64>; 2]> = (1..k).map(|i| [b(&[(i, 1.0)]), b(&[(i, -1.0)])]).collect();
-        all[0] = along.iter().map(|b| -b).collect();
-        for i in 1..k {
-            let [plus, minus] = &sides[i - 1];
-            let pairs = plus.iter().zip(minus);
-            let mixed: Vec<f64> = pairs.clone().map(|(p, m)| 0.25 * (m - p)).collect();
-            all[i].clone_from(&mixed);
-            all[i * k] = mixed;
-            let pure = pairs.zip(&along).map(|((p, m), b)| b - 0.5 * (p + m));
-            all[i * k + i] = pure.collect();
-            for j in 1..i {
-                let both = b(&[(i, 1.0), (j, 1.0)]);
-                let (one, other) = (&sides[i - 1][0], &sides[j - 1][0]);
-                let term = |c: usize| -0.5 * (both[c] - one[c] - other[c] + along[c]);
-                let mixed: Vec<f64> = (0..along.len()).map(term).collect();
-                all[i * k + j].clone_from(&mixed);
-                all[j * k + i] = mixed;
-            }
-        }
-        all
-    }
-}
-
-/// By how much a function with these second derivatives by k directions, among the first numbers of `second`, and these slopes, negative,
-/// among those of `down`, differs where it is critical from what it is: not quite where others are that vanish with it.
-fn least(k: usize, second: &[f64], down: &[f64], largest: f64) -> f64 {
-    let mut system = Decomposition::new(k, k);
-    system.load(k).copy_from_slice(&second[..k * k]);
-    system.factor(&vec![1.0; k], &vec![largest.recip(); k], 1e-6);
-    let mut step = vec![0.0; k];
-    system.solve(&down[..k], &mut step);
-    -0.5 * dot(&down[..k], &step)
-}
-
-/// Takes off `x` its parts along orthonormal vectors.
-fn reject(x: &mut [f64], basis: &[Vec<f64>]) {
-    for direction in basis {
-        axpy(-dot(x, direction), direction, x);
-    }
 }

@@ -13,7 +13,7 @@ pub(crate) const LOADS: [&str; 2] = ["reaction", "moment"];
 
 pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
-pub(crate) use scope::{Reported, Scope, arity};
+pub(crate) use scope::{Reported, Scope, arguments, arity};
 pub(crate) use tree::{Joint, Step};
 pub(crate) use types::{
     BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed,

@@ -378,6 +378,11 @@ impl<'m> Scope<'m> {
 
 /// The message about a function that is given too many arguments, or too few.
 pub(crate) fn arity(name: &Ident, expected: usize, found: usize) -> String {
-    let s = if expected == 1 { "" } else { "s" };
-    format!("`{name}` takes {expected} argument{s}, found {found}")
+    format!("`{name}` takes {}, found {found}", arguments(expected))
+}
+
+/// So many arguments, in words.
+pub(crate) fn arguments(count: usize) -> String {
+    let s = if count == 1 { "" } else { "s" };
+    format!("{count} argument{s}")
 }

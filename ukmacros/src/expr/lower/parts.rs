@@ -8,7 +8,7 @@ use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
 use crate::expr::graph::{Id, Symbol};
-use crate::model::Scope;
+use crate::model::{Scope, arguments};
 use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
 use std::collections::{BTreeMap, BTreeSet};
@@ -405,10 +405,7 @@ impl<'m> Lowering<'m> {
                 Some(_) => format!(
                     "it is written {}, found {}",
                     usages(&mut at_home()),
-                    match args.len() {
-                        1 => "1 argument".to_owned(),
-                        count => format!("{count} arguments"),
-                    }
+                    arguments(args.len())
                 ),
                 None => {
                     let (here, there) = match home {
