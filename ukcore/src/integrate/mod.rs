@@ -170,6 +170,10 @@ pub(crate) trait Problem {
     fn vanishing(&mut self, _old: Sample<'_>, _new: Option<Sample<'_>>) -> Option<Singular> {
         None
     }
+    /// A position where the motion does not just go on, on a step from `old` to `new` that goes over another one at the time `over`.
+    fn met_beside(&mut self, _old: Sample<'_>, _new: Sample<'_>, _over: f64) -> Option<Singular> {
+        None
+    }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Number of switches: functions g(t, q, q̇) at whose zeros q̈ may have kinks or jumps, onto which steps are to go.

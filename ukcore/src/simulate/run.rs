@@ -192,6 +192,12 @@ impl Problem for Run<'_> {
         obstacles::vanishing(mechanism, found, old)
     }
 
+    fn met_beside(&mut self, old: Sample<'_>, new: Sample<'_>, over: f64) -> Option<Singular> {
+        let mechanism = self.solver.mechanism();
+        let found = self.rows.beside(mechanism, old, new, over)?;
+        obstacles::vanishing(mechanism, found, old).filter(|found| found.gap != 0.0)
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.recorder.agenda.next
     }

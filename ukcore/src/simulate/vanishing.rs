@@ -53,6 +53,9 @@ const LOOKS: [f64; 5] = [0.0, 0.19, 0.45, 0.68, 1.0];
 /// A step over which a combination of rows is reversed is halved so often in search of the place.
 const HALVINGS: i32 = 8;
 
+/// Positions that are nearer to each other than so many of the parts that this leaves are met as one.
+const APART: f64 = 2.5;
+
 /// What is lost of A on the way of a motion.
 pub(super) enum Loss {
     /// A row by itself.
@@ -212,18 +215,11 @@ impl RowWatch {
         old: Sample<'_>,
         new: Sample<'_>,
     ) -> Option<Loss> {
-        let first = self.sizes.is_empty();
         let rests = dot(old.v, new.v) < 0.0;
         if mech.spec().m() == 0 || !(rests || self.is_due(old.t, new.t)) {
             return None;
         }
-        if first {
-            self.look_back(mech, old);
-            self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
-            self.left = [1.0; 2];
-        }
-        self.here.take(mech, new, self.measure.as_ref());
-        self.compare(mech);
+        let first = self.look(mech, old, new);
         self.turns = 0.0;
         // Over a step as long as this, rows may be as they were at its start after any number of turns.
         let long = first || (new.t - old.t).abs() > (self.due - self.seen.t).abs();
@@ -239,7 +235,7 @@ impl RowWatch {
         let row = first.or_else(|| self.smallest(&self.here, new));
         let row = row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten());
         let told = row.map(Loss::Row);
-        let told = told.or_else(|| self.dependent(mech, old, new));
+        let told = told.or_else(|| self.dependent(mech, old, new, None));
         match within {
             Some(row) => Some(Loss::Within {
                 row,
@@ -248,6 +244,35 @@ impl RowWatch {
             }),
             None => told,
         }
+    }
+
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, but for the one that is known to do so at the time
+    /// `over`.
+    pub(super) fn beside(
+        &mut self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+        over: f64,
+    ) -> Option<Loss> {
+        self.look(mech, old, new);
+        if self.look_back(mech, old) {
+            self.compare(mech);
+        }
+        self.dependent(mech, old, new, Some(over))
+    }
+
+    /// Takes A at the end of the step from `old` to `new`, and compares it with what was seen before. Whether that is the first step.
+    fn look(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> bool {
+        let first = self.sizes.is_empty();
+        if first {
+            self.look_back(mech, old);
+            self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
+            self.left = [1.0; 2];
+        }
+        self.here.take(mech, new, self.measure.as_ref());
+        self.compare(mech);
+        first
     }
 
     /// The row that is all but zero where the motion stands, if one is.
@@ -348,9 +373,15 @@ impl RowWatch {
         None
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does. One that is reversed on the way,
-    /// which need not be on the constraints, has not only turned where the others leave it little.
-    fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does, other than at the time `over`. One that
+    /// is reversed on the way, which need not be on the constraints, has not only turned where the others leave it little.
+    fn dependent(
+        &mut self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+        over: Option<f64>,
+    ) -> Option<Loss> {
         let asked = self.asked.filter(|_| self.share == 0.0)?;
         let independence = self.independence[asked].as_mut()?.as_mut()?;
         let ends = [&self.seen.entries[..], &self.here.entries[..]];
@@ -360,6 +391,11 @@ impl RowWatch {
             true => (first, [0.0, 0.5]),
             false => (last, [0.5, 1.0]),
         };
+        // Beside a position one has least left at this.
+        if over.is_some() {
+            least.0 = f64::INFINITY;
+        }
+        let over = over.map(|over| (over - old.t) / (new.t - old.t));
         let mut between = Matrix::default();
         let at = |part: f64| between_states(old, new, part);
         // Parts of the step that are left to look at, the first one last, with A at their ends.
@@ -369,6 +405,10 @@ impl RowWatch {
                 continue;
             }
             if to - from <= 0.5_f64.powi(HALVINGS) {
+                let off = |over: f64| (over - 0.5 * (from + to)).abs();
+                if over.is_some_and(|over| off(over) < APART * (to - from)) {
+                    continue;
+                }
                 least = (0.0, [from, to]);
                 break;
             }
@@ -376,7 +416,7 @@ impl RowWatch {
             between.take(mech, Sample::from(&at(middle)), self.measure.as_ref());
             let c = between.entries.clone();
             let left = independence.left(&c);
-            if left < least.0 {
+            if over.is_none() && left < least.0 {
                 least = (left, [from, middle]);
             }
             parts.push((middle, to, [c.clone(), b]));

@@ -441,6 +441,10 @@ impl Driver<'_> {
         let found = found.filter(|found| !undone || gap.is_none() || found.gap == 0.0);
         let end = Sample::of(trial.end.t, self.scheme.end());
         let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
+        let known = found.as_ref().or(self.passage.ahead.as_ref());
+        let over = known.filter(|_| self.passage.passing && made);
+        let beside = over.and_then(|over| problem.met_beside(here, end, over.t));
+        let found = beside.or(found);
         match found {
             Some(found) => self.judge(found, trial, made),
             None => {
