@@ -1,6 +1,6 @@
 //! Entries of sections, each by itself.
 
-use super::expr::{Expr, location};
+use super::expr::{Expr, TWO_SIGNS, location};
 use super::grammar::{blocks, coordinates, declared, docs, expression, key, needed};
 use super::item::{
     Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
@@ -249,7 +249,11 @@ pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
         syn::Expr::Call(_) | syn::Expr::MethodCall(_) => (e, None),
         e => {
             let loc = location(&e);
-            diag.error(loc, "a constraint is an equation: `lhs = rhs`");
+            let message = match &e {
+                syn::Expr::Binary(e) if matches!(e.op, syn::BinOp::Eq(_)) => TWO_SIGNS,
+                _ => "a constraint is an equation: `lhs = rhs`",
+            };
+            diag.error(loc, message);
             return Ok(Equation {
                 key,
                 lhs: Expr::error(loc),
@@ -374,6 +378,9 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
     } else {
         guessed(input, diag)?
     };
+    if input.peek(Token![==]) {
+        return Err(input.error(TWO_SIGNS));
+    }
     let held = input.peek(Token![=]);
     if held {
         let _: Token![=] = input.parse()?;

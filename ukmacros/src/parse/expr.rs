@@ -491,6 +491,9 @@ fn suffixed(digits: &str, suffix: &str) -> String {
     }
 }
 
+/// What is wrong with `==`.
+pub(super) const TWO_SIGNS: &str = "an equation is written with one `=`";
+
 fn binary_op(op: &syn::BinOp) -> Result<BinaryOp, &'static str> {
     use syn::BinOp;
     Ok(match op {
@@ -502,7 +505,7 @@ fn binary_op(op: &syn::BinOp) -> Result<BinaryOp, &'static str> {
             return Err("`^` is not a power in Rust; write `x.powi(2)`, `x.powf(y)` or `sq(x)`");
         }
         BinOp::Rem(_) => return Err("`%` cannot be differentiated; remove it"),
-        BinOp::Eq(_) => return Err("an equation is written with one `=`"),
+        BinOp::Eq(_) => return Err(TWO_SIGNS),
         BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Ne(_) => {
             return Err("no comparisons in an equation; use `min`, `max`, `abs` or `sign`");
         }

@@ -306,6 +306,13 @@ pub(super) fn needed<T: syn::parse::Parse>(
 
 pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     let e: syn::Expr = input.parse()?;
+    let number = match &e {
+        syn::Expr::Unary(negative) => &*negative.expr,
+        e => e,
+    };
+    if let syn::Expr::Lit(number) = number {
+        units::bare(number, input)?;
+    }
     Ok(Expr::convert(e, diag))
 }
 

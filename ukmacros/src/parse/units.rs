@@ -7,6 +7,7 @@
 use super::item::Measure;
 use crate::diag::{Diagnostics, suggest};
 use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
+use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use ukunits::{Refusal, Unit};
 
@@ -204,6 +205,22 @@ fn text(group: &Group, diag: &Diagnostics) -> TokenStream {
     let mut literal = Literal::string(&unit);
     literal.set_span(group.span());
     TokenTree::Literal(literal).into()
+}
+
+/// Refuses a unit without brackets behind a number: a name that nothing is said of.
+pub(super) fn bare(number: &syn::ExprLit, input: ParseStream<'_>) -> syn::Result<()> {
+    let Some((name, rest)) = input.cursor().ident() else {
+        return Ok(());
+    };
+    let says = |c| matches!(c, '=' | ':' | '.');
+    let is_said = rest.punct().is_some_and(|(sign, _)| says(sign.as_char()))
+        || rest.group(Delimiter::Bracket).is_some();
+    if is_said || Unit::parse(&name.to_string()).is_err() {
+        return Ok(());
+    }
+    let number = number.to_token_stream();
+    let message = format!("a unit stands in brackets: `{number} [{name}]`");
+    Err(syn::Error::new(name.span(), message))
 }
 
 /// The unit that comes next, if one does; nothing inside where it is in error.

@@ -230,7 +230,8 @@ cases! {
     large_integer: "coords { x } mass { x: 1.0 } force { x: «99999999999999999999» }" => "integer is too large; write it as a float";
     large_number: "coords { x } mass { x: 1.0 } force { x: «1e999» }" => "number is too large for an `f64`";
     function_with_an_index: "coords { x } mass { x: 1.0 } let { for i in 0..2 { f[i] = |u| «i * u» } } output { o = x }" => "a function cannot be indexed; pass the index as an argument";
-    double_equals: "coords { x } mass { x: 1.0 } holonomic { c: «x == 1.0» }" => "a constraint is an equation: `lhs = rhs`";
+    double_equals: "coords { x } mass { x: 1.0 } holonomic { c: «x == 1.0» }" => "an equation is written with one `=`";
+    double_equals_of_a_start: "coords { x } mass { x: 1.0 } start s() { x «=»= 1.0 }" => "an equation is written with one `=`";
     branch: "coords { x } mass { x: 1.0 } force { x: «if x { 1.0 } else { 2.0 }» }" => "no branches in an equation";
     two_equals: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = y «=» 1.0 }" => "an equation has one `=`";
     not_an_equation: "coords { x } mass { x: 1.0 } holonomic { c: «x - 1.0» }" => "a constraint is an equation: `lhs = rhs`";
@@ -244,6 +245,13 @@ cases! {
     closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
     cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
+    unit_without_brackets: "params { a = 1 «rad», m = 1 } coords { x } mass { x: m }" => "a unit stands in brackets: `1 [rad]`";
+    units_without_brackets: "params { a = -1.5 «kg» m } coords { x } mass { x: 1 }" => "a unit stands in brackets: `1.5 [kg]`";
+    pow: "coords { x } mass { x: 1 } force { x: -x.«pow»(2) }" => "a power is written `x.powi(2)`, with a whole exponent, `x.powf(y)` or `sq(x)`";
+    velocity_in_one_word: "coords { x[2] } mass { x[0]: 1, x[1]: 1 } force { x[0]: -«xdot» }" => "unknown name `xdot`; the velocity of `x` is `dot(x)`";
+    velocity_with_a_letter: "coords { x } mass { x: 1 } force { x: -«v_x» }" => "unknown name `v_x`; the velocity of `x` is `dot(x)`";
+    entry_of_omega: "bodies { spatial ball { mass: 1, inertia: [1, 1, 1] } } start s() { ball.omega[«2»] = 1.0 }" => "a start gives a vector as a whole: `ball.omega = […]`";
+    entry_of_a_centre: "bodies { spatial ball { mass: 1, inertia: [1, 1, 1] } } start s() { ball.centre[«2»] = 1.0 }" => "a start gives a vector as a whole: `ball.centre = […]`; choose a coordinate of it: `x`, `y`, `z`, `e0`, `e1`, `e2`, `e3`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
     unknown_section_for_constraints: "coords { x } mass { x: 1.0 } «constraint» { c: x = 1.0 }" => "unknown section `constraint`; constraints stand under `holonomic`, those with velocities under `nonholonomic`";

@@ -73,6 +73,11 @@ impl<'m> Lowering<'m> {
                 };
                 return Value::Scalar(self.graph.pow(u, -1));
             }
+            "pow" => {
+                let message =
+                    "a power is written `x.powi(2)`, with a whole exponent, `x.powf(y)` or `sq(x)`";
+                return self.error_once(name, message);
+            }
             "signum" => {
                 let message = "`signum(0.0)` is 1 in Rust; write `sign`, which is 0 at 0";
                 return self.error_once(name, message);

@@ -140,7 +140,16 @@ impl<'m> Lowering<'m> {
         let surplus = behind.first().map(|index| index.loc);
         let surplus = surplus.or(key.fields.get(1).map(|(name, _)| name.span().into()));
         if let Some(loc) = surplus {
-            let message = "a coordinate is a number, and nothing follows it; indices stand behind the body or joint";
+            let choice = match field.to_string().as_str() {
+                "centre" => format!("; {}", self.its_coordinates(&name)),
+                _ => String::new(),
+            };
+            let message = match body {
+                Some(_) if FIELDS.iter().any(|known| field == known) => {
+                    format!("a start gives a vector as a whole: `{name}.{field} = […]`{choice}")
+                }
+                _ => "a coordinate is a number, and nothing follows it; indices stand behind the body or joint".to_owned(),
+            };
             self.diag.error(loc, message);
             return None;
         }

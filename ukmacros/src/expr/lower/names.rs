@@ -10,6 +10,9 @@ use crate::parse::{Expr, Key};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
 
+/// What is written before and behind the name of a coordinate elsewhere for its velocity.
+const RATES: [[&str; 2]; 5] = [["", "_dot"], ["", "dot"], ["v_", ""], ["v", ""], ["d", ""]];
+
 impl<'m> Lowering<'m> {
     /// What `name` stands for; of a family or vector the member or part that `indices` choose.
     pub(super) fn name(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
@@ -186,6 +189,14 @@ impl<'m> Lowering<'m> {
                     "`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"
                 ),
             };
+            return self.error(name.span(), message);
+        }
+        let velocity = RATES.iter().find_map(|[before, after]| {
+            let x = text.strip_prefix(before)?.strip_suffix(after)?;
+            matches!(self.model.names.get(x), Some(Name::Coord(_))).then_some(x)
+        });
+        if let Some(x) = velocity {
+            let message = format!("unknown name `{text}`; the velocity of `{x}` is `dot({x})`");
             return self.error(name.span(), message);
         }
         let names = self.model.names.keys().chain(self.lets.keys());
