@@ -73,7 +73,6 @@ ukcore::multibody! {
 /// turns back. A step that goes over the fold of the first loop does not go over this unseen.
 #[test]
 fn a_fold_that_is_missed_behind_another_is_not_gone_over() {
-    let mut refused = 0;
     for (after, more) in [5e-2, 0.1, 0.2]
         .into_iter()
         .flat_map(|after| [1e-6, 1e-8, 1e-10, -1e-8, -1e-9].map(|more| (after, more)))
@@ -94,10 +93,7 @@ fn a_fold_that_is_missed_behind_another_is_not_gone_over() {
                     .method(method)
                     .tolerance(tolerance)
                     .until(PI + 0.3 - 2.6);
-                let Ok(run) = run else {
-                    refused += 1;
-                    continue;
-                };
+                let run = run.unwrap_or_else(|failure| panic!("{name}: {failure}"));
                 let last = &run.last().expect("an end").q;
                 let most = run
                     .samples()
@@ -109,8 +105,6 @@ fn a_fold_that_is_missed_behind_another_is_not_gone_over() {
             }
         }
     }
-    // Of 135.
-    assert!(refused < 60, "{refused}");
 }
 
 #[test]
@@ -158,5 +152,5 @@ fn loops_that_fold_shortly_after_each_other_are_passed() {
         }
     }
     // Of 240.
-    assert!(refused < 60, "{refused}");
+    assert!(refused < 30, "{refused}");
 }

@@ -284,6 +284,34 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
     }
 }
 
+ukcore::multibody! {
+    /// Two pairs of masses on springs and one mass in syrup, none of them held, and one that turns freely.
+    pub Loose {
+        params { k = 3.0, c = 2.0 }
+        coords { u, x, w, y, z, th }
+        mass { u: 1.0, x: 2.0, w: 0.7, y: 1e-3, z: 1.3, th: 5.0 }
+        potential { 0.5 * k * sq(x - y - 1.0), 0.5 * k * sq(u - w) }
+        dissipation { 0.5 * c * sq(dot(z)) }
+    }
+}
+
+/// Displacements that cost nothing are told each by itself, twice where it can go on.
+#[test]
+fn what_costs_nothing_is_told_once_each() {
+    let found = modes(Loose::default(), &at_rest(&[0.3, 1.2, 0.3, 0.2, 0.7, 2.0])).unwrap();
+    assert_eq!(found.len(), 12 - 2);
+    let still: Vec<&Mode> = found.iter().filter(|mode| mode.size() == 0.0).collect();
+    assert_eq!(still.len(), 7);
+    let moving = |mode: &Mode| -> Vec<usize> {
+        let moves = |i: &usize| mode.shape[*i][0].hypot(mode.shape[*i][1]) > 1e-12;
+        (0..6).filter(moves).collect()
+    };
+    let mut all: Vec<Vec<usize>> = still.into_iter().map(moving).collect();
+    all.sort();
+    all.dedup();
+    assert_eq!(all, [vec![0, 2], vec![1, 3], vec![4], vec![5]]);
+}
+
 /// Double pendulums of bars, with springs and dampers in their joints, that do not touch each other.
 macro_rules! pendulums {
     ($name:ident, $copies:literal) => {

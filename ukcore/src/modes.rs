@@ -126,6 +126,12 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
             shape,
         });
     }
+    let still: Vec<usize> = (0..shapes.len()).filter(|k| shapes[*k].stays()).collect();
+    let costless = costless(&tangent, &reduced, still.len());
+    // Each counts twice where it can be moved along, too.
+    for (k, shape) in still.into_iter().zip(costless.iter().cycle()) {
+        shapes[k].shape.clone_from(shape);
+    }
     let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(&mech, &units)).collect();
     modes.sort_by(|a, b| {
         let by_frequency = a.frequency.total_cmp(&b.frequency);
@@ -146,6 +152,11 @@ struct Found {
 }
 
 impl Found {
+    /// Whether its eigenvalue is 0.
+    fn stays(&self) -> bool {
+        self.growth == 0.0 && self.frequency == 0.0
+    }
+
     fn mode(&self, mech: &Prepared, units: &DVector<f64>) -> Mode {
         let leader = self.shape.icamax();
         let moved = self.shape.zip_map(units, |x, unit| x * unit);
@@ -196,6 +207,31 @@ fn share_out(
         shape[leader] = Complex::new(0.0, 0.0);
     }
     Some(other)
+}
+
+/// Displacements that R, `reduced`, leaves where they are, `most` at most: of each a coordinate stays where it is in the others.
+fn costless(
+    tangent: &DMatrix<f64>,
+    reduced: &DMatrix<f64>,
+    most: usize,
+) -> Vec<DVector<Complex<f64>>> {
+    let (decomposed, pivots) = pivoted(&(reduced / or_one(reduced.norm())));
+    let rank = pivots.iter().filter(|x| **x > TOGETHER).count();
+    let rank = rank.max(pivots.len().saturating_sub(most));
+    let n = tangent.nrows() / 2;
+    let mut all = tangent.rows(0, n) * complement(pivots.len(), &decomposed, rank);
+    for k in 0..all.ncols() {
+        let own = all.column(k).icamax();
+        let one = all.column(k) / all[(own, k)];
+        for mut other in all.column_iter_mut() {
+            other -= &one * other[own];
+        }
+        all.set_column(k, &one);
+    }
+    let columns = all.column_iter();
+    columns
+        .map(|column| column.map(|x| Complex::new(x, 0.0)))
+        .collect()
 }
 
 /// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
@@ -301,7 +337,7 @@ pub(crate) fn measure(rows: &mut DMatrix<f64>, units: &DVector<f64>) {
 pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
     let n = rows.ncols();
     let (decomposed, pivots) = decompose(rows, units);
-    complement(n, &decomposed, &pivots)
+    complement(n, &decomposed, independent(&pivots))
 }
 
 /// [`null_space`] of displacements that leave the coordinates `held` where they are.
@@ -318,13 +354,17 @@ pub(crate) fn null_space_holding(
     null_space(rows, units)
 }
 
-/// [`null_space`] of rows of length `n` that are [decomposed](decompose), with these pivots.
+/// How many of [decomposed](decompose) rows do not follow from others, by their pivots.
+pub(crate) fn independent(pivots: &[f64]) -> usize {
+    pivots.iter().filter(|x| **x > INDEPENDENT).count()
+}
+
+/// [`null_space`] of rows of length `n` that are [decomposed](decompose), of which so many do not follow from others.
 pub(crate) fn complement(
     n: usize,
     decomposed: &ColPivQR<f64, Dyn, Dyn>,
-    pivots: &[f64],
+    rank: usize,
 ) -> DMatrix<f64> {
-    let rank = pivots.iter().filter(|x| **x > INDEPENDENT).count();
     let mut turned = DMatrix::identity(n, n);
     decomposed.q_tr_mul(&mut turned);
     turned.rows(rank, n - rank).transpose()

@@ -9,7 +9,7 @@ use crate::equations::{uk, up};
 use crate::error::Error;
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{INDEPENDENT, complement, decompose, measure, units};
+use crate::modes::{INDEPENDENT, complement, decompose, independent, measure, units};
 use crate::random::Random;
 use crate::scalar::Dual;
 use crate::scan::{largest, or_one};
@@ -94,7 +94,7 @@ impl<'a> Equations<'a> {
         let (force, nonideal) = (measured(&terms.force), measured(&terms.nonideal));
         let mut jacobian = DMatrix::from_vec(m, n, terms.jacobian.clone());
         let (decomposed, pivots) = decompose(jacobian.clone(), &units);
-        let free = complement(n, &decomposed, &pivots);
+        let free = complement(n, &decomposed, independent(&pivots));
         let singular = (pivots.iter()).any(|x| (INDEPENDENT..SINGULAR).contains(x));
         for (j, unit) in units.iter().enumerate() {
             mass.column_mut(j).scale_mut(*unit);
