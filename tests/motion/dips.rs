@@ -204,3 +204,70 @@ fn a_ball_that_is_thrown_back_from_the_floor_never_falls_through() {
         }
     }
 }
+
+/// Hops of 0.1 s to a microsecond, from the floor, from a rounding above it and below, with the whole fall behind them in one run.
+#[test]
+fn a_hop_is_seen_however_short_it_is() {
+    for method in METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            for (vx, y) in [0.0, 1.0]
+                .into_iter()
+                .flat_map(|vx| [0.0, -8e-17, 1e-17].map(|y| (vx, y)))
+            {
+                for time in [0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+                    let floor = Event::new("floor", |_, q, _| q[1]);
+                    let run = Simulation::new(Ball::default())
+                        .method(method)
+                        .tolerance(tolerance)
+                        .start(at(&[0.0, y], &[vx, 0.5 * 9.81 * time]))
+                        .event(floor.direction(Direction::Falling).terminal())
+                        .until(5.0)
+                        .expect("the ball flies");
+                    let end = run.last().expect("an end").t;
+                    let label = format!("{method}, {tolerance:e}, {vx}, {y:e}, {time:e}: {end:e}");
+                    assert!((end / time - 1.0).abs() < 1e-3, "{label}");
+                }
+            }
+        }
+    }
+}
+
+/// A ball that flies while something else turns: steps are as long as the flight allows, with hundreds of turns within each.
+#[test]
+fn turns_within_a_step_are_all_counted() {
+    for method in METHODS {
+        for rate in [0.5, 5.0, 50.0, 500.0, 2000.0] {
+            let turns = Event::new("turns", move |t, _, _| (rate * t + 0.1).sin());
+            // It jumps each time.
+            let laps = Event::new("laps", move |t, _, _| (rate * t).rem_euclid(6.0) - 3.0);
+            let run = Simulation::new(Ball::default())
+                .method(method)
+                .start(at(&[0.0, 1.0], &[1.0, 0.0]))
+                .event(turns)
+                .event(laps.direction(Direction::Rising))
+                .until(10.0)
+                .expect("the ball flies");
+            let count = |name: &str| run.events(name).expect("an event").count() as f64;
+            let all = ((rate * 10.0 + 0.1) / std::f64::consts::PI).floor();
+            assert_eq!(count("turns"), all, "{method}, {rate}");
+            assert_eq!(
+                count("laps"),
+                ((rate * 10.0 + 3.0) / 6.0).floor(),
+                "{method}, {rate}"
+            );
+        }
+    }
+}
+
+/// An event that is nothing but rounding does not take a run longer than a moment.
+#[test]
+fn noise_is_not_looked_at_for_long() {
+    let noise = Event::new("noise", |t, q, _| q[0] - t);
+    let run = Simulation::new(Ball::default())
+        .start(at(&[0.0, 1.0], &[1.0, 0.0]))
+        .max_step(0.01)
+        .event(noise)
+        .until(10.0)
+        .expect("the ball flies");
+    assert!(run.work().steps < 1100, "{}", run.work().steps);
+}

@@ -4,10 +4,27 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::zero::{PARTS, below, locate};
+use crate::zero::{below, locate};
 
-/// Part of a step after which events are looked at first: a run that goes on from an event may begin a rounding behind its zero.
+/// Part of a step after which events are looked at first: a run that goes on from an event may begin a rounding behind its zero. So much
+/// sooner, again and again, where a function has less than a share of what it has then at the start.
 const SOON: f64 = 1e-3;
+const NEARER: f64 = 0.5;
+const SOONEST: f64 = 1e-16;
+
+/// Where they are looked at then, so unevenly that no turns come out even at all of them.
+const LOOKS: [f64; 8] = [0.11, 0.27, 0.36, 0.52, 0.61, 0.77, 0.88, 1.0];
+
+/// A value that differs from what those beside it say by more than this share of their range is of a function that changes too often to
+/// tell; there are to be more then, with others between at this part of the way.
+const ROUGH: f64 = 0.1;
+const BETWEEN: f64 = 0.45;
+
+/// Looks at a step at most, none nearer than this share of it. Where so many do not tell, shorter steps may, until so many of them in a row
+/// do not either: then it is noise.
+const MOST: usize = 4096;
+const NEAREST: f64 = 1e-5;
+const PATIENCE: usize = 8;
 
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,10 +46,9 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// located to rounding on the interpolant of the step, at projected states.
 /// Where g is not a number, the run fails with an error that says so.
 ///
-/// Signs are compared soon after the start of a step, at the ends of each eighth of it, and where g is nearest to zero between these: two
-/// zeros of g can be missed where it has more extrema within a quarter of a step. The interpolant of a step that passed error control
-/// at order 8 (or 5) seldom has more than one or two; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search
-/// finer.
+/// Signs are compared soon after the start of a step, at some eight places along it, at more where these do not tell how g goes, as along a
+/// long step while a wheel turns many times, and where g is nearest to zero between them. Two zeros of g can be missed where it changes
+/// for less than an eighth of a step and is smooth beside that; [`max_step`](crate::Simulation::max_step) makes the search finer.
 ///
 /// ```
 /// use ukcore::simulate::{Direction, Event};
@@ -138,6 +154,8 @@ pub(crate) struct Watch {
     /// Crossings of the current step in the order of time.
     pub(crate) crossings: Vec<Crossing>,
     state: Vec<f64>,
+    /// Steps in a row that were too long to tell how events go.
+    untold: usize,
 }
 
 impl Watch {
@@ -149,6 +167,7 @@ impl Watch {
             current: values,
             crossings: Vec::new(),
             state: vec![0.0; 2 * coordinates],
+            untold: 0,
             events,
         }
     }
@@ -161,26 +180,35 @@ impl Watch {
         Ok(())
     }
 
-    /// Finds the crossings in the step from `t_old` to `t`, up to the first terminal one.
+    /// Finds the crossings in the step from `t_old` to `t`, up to the first terminal one. Whether they can be told; else the step is to be
+    /// shorter.
     pub(crate) fn search(
         &mut self,
         t_old: f64,
         t: f64,
         states: &mut impl States,
-    ) -> Result<(), Error> {
+    ) -> Result<bool, Error> {
         let Watch {
             events,
             accepted,
             current,
             crossings,
             state,
+            untold,
         } = self;
         crossings.clear();
         if events.is_empty() {
-            return Ok(());
+            return Ok(true);
         }
         current.copy_from_slice(accepted);
         let mut looks = looks(events, current, [t_old, t], states, state)?;
+        if *untold < PATIENCE {
+            let told = refine(events, current, [t_old, t], &mut looks, states, state)?;
+            *untold = if told { 0 } else { *untold + 1 };
+            if !told {
+                return Ok(*untold == PATIENCE);
+            }
+        }
         beside(events, current, t_old, &mut looks, states, state)?;
         let mut a = t_old;
         for (b, values) in looks {
@@ -214,7 +242,7 @@ impl Watch {
             }
             a = b;
         }
-        Ok(())
+        Ok(true)
     }
 
     /// The step is accepted: the next one begins at its end.
@@ -234,12 +262,29 @@ fn looks(
     states: &mut impl States,
     state: &mut [f64],
 ) -> Result<Vec<Look>, Error> {
-    let parts = (1..PARTS).map(|part| part as f64 / PARTS as f64);
-    let within = [SOON].into_iter().chain(parts);
-    let times = within.map(|part| t_old + (t - t_old) * part).chain([t]);
+    let at = |part: f64| match part {
+        1.0 => t,
+        part => t_old + (t - t_old) * part,
+    };
+    let mut soon = Vec::new();
+    let mut part = SOON;
+    loop {
+        let values = all(events, at(part), states, state)?;
+        let mut pairs = before.iter().zip(&values);
+        let nearer = pairs.any(|(a, b)| a.abs() < NEARER * b.abs());
+        soon.push((at(part), values));
+        part *= SOON;
+        if !nearer || part < SOONEST {
+            break;
+        }
+    }
     let mut looks: Vec<Look> = Vec::new();
-    for b in times {
-        let values = all(events, b, states, state)?;
+    let later = LOOKS.into_iter().map(|part| (at(part), Vec::new()));
+    for (b, known) in soon.into_iter().rev().chain(later) {
+        let values = match known.is_empty() {
+            true => all(events, b, states, state)?,
+            false => known,
+        };
         let last = looks.last().map_or(before, |(_, values)| values);
         let mut pairs = last.iter().zip(&values).zip(&*events);
         let ends = |((a, b), event): ((&f64, &f64), &Event)| {
@@ -252,6 +297,68 @@ fn looks(
         }
     }
     Ok(looks)
+}
+
+/// Adds looks until they tell how the events go. Whether they do.
+fn refine(
+    events: &mut [Event],
+    before: &[f64],
+    [t_old, t]: [f64; 2],
+    looks: &mut Vec<Look>,
+    states: &mut impl States,
+    state: &mut [f64],
+) -> Result<bool, Error> {
+    loop {
+        let mut all_looks = vec![(t_old, before.to_vec())];
+        all_looks.append(looks);
+        let mut rough = vec![false; all_looks.len()];
+        for (k, five) in all_looks.windows(5).enumerate() {
+            let is_rough = (0..events.len()).any(|i| is_rough(five, i));
+            rough[k + 1..k + 5]
+                .iter_mut()
+                .for_each(|rough| *rough |= is_rough);
+        }
+        let least = NEAREST * (t - t_old).abs();
+        let mut more = Vec::new();
+        for (k, pair) in all_looks.windows(2).enumerate() {
+            let way = pair[1].0 - pair[0].0;
+            if rough[k + 1] && way.abs() > least {
+                more.push(pair[0].0 + BETWEEN * way);
+            }
+        }
+        looks.extend(all_looks.drain(1..));
+        if more.is_empty() {
+            return Ok(true);
+        }
+        if looks.len() + more.len() > MOST {
+            return Ok(false);
+        }
+        for b in more {
+            looks.push((b, all(events, b, states, state)?));
+        }
+        in_order(looks, t_old);
+    }
+}
+
+/// Whether the third of five looks at event `i` is off the cubic through the others.
+fn is_rough(five: &[Look], i: usize) -> bool {
+    let others = [0, 1, 3, 4];
+    let middle = five[2].0;
+    let mut value = 0.0;
+    for k in others {
+        let parts = others.into_iter().filter(|l| *l != k);
+        let share = parts.map(|l| (middle - five[l].0) / (five[k].0 - five[l].0));
+        value += five[k].1[i] * share.product::<f64>();
+    }
+    let values = five.iter().map(|(_, values)| values[i]);
+    let most = values.clone().fold(f64::NEG_INFINITY, f64::max);
+    let least = values.fold(f64::INFINITY, f64::min);
+    (five[2].1[i] - value).abs() > ROUGH * (most - least)
+}
+
+fn in_order(looks: &mut [Look], t_old: f64) {
+    let way = |look: &Look| (look.0 - t_old).abs();
+    looks.sort_by(|a, b| way(a).total_cmp(&way(b)));
 }
 
 /// Adds a look where an event that is nearest to zero between others has changed its sign there.
@@ -286,8 +393,7 @@ fn beside(
     for b in more {
         looks.push((b, all(events, b, states, state)?));
     }
-    let way = |look: &Look| (look.0 - t_old).abs();
-    looks.sort_by(|a, b| way(a).total_cmp(&way(b)));
+    in_order(looks, t_old);
     Ok(())
 }
 

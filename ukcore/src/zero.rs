@@ -1,8 +1,5 @@
 //! Zeros of functions along a step.
 
-/// Parts into which a step is divided in the search for sign changes.
-pub(crate) const PARTS: usize = 8;
-
 /// The zero of `g` between `a` and `b` (in either order) where it changes its sign from negative, at `a`, to positive, to rounding in t.
 ///
 /// Of the two neighbouring times it is left with it returns the one at which the sign has changed, so that a run which

@@ -14,13 +14,16 @@ use super::Problem;
 use super::dense::interpolate;
 use super::sample::Sample;
 use crate::mechanism::Branch;
-use crate::zero::{PARTS, locate};
+use crate::zero::locate;
 
 mod dips;
 mod turn;
 
 pub(super) use dips::Seen;
 pub(super) use turn::Stuck;
+
+/// Parts into which a step is divided in the search for sign changes.
+const PARTS: usize = 8;
 
 /// A zero nearer than this part of a step to its end is at its end.
 const AT_END: f64 = 1e-13;

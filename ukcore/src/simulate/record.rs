@@ -102,7 +102,11 @@ impl<'s> Recorder<'s> {
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
-        self.watch.search(step.old.t, step.until, &mut within)?;
+        let told = self.watch.search(step.old.t, step.until, &mut within)?;
+        // Steps of one size have no estimate, and cannot be shorter.
+        if !told && step.error.is_some() {
+            return Ok(UNTOLD);
+        }
         let mut t_stop = step.until;
         for crossing in &self.watch.crossings {
             let event = &self.watch.events[crossing.event];
@@ -207,6 +211,9 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 }
+
+/// Counts as the error of a step that is too long to tell how events go.
+const UNTOLD: f64 = 1e3;
 
 /// A change of velocities by more than this share of the largest is no correction.
 const ANOTHER: f64 = 0.25;
