@@ -2,7 +2,7 @@
 
 use models::{FishRobot, Model, Pendulum, SpringPendulum, StartOptions};
 use std::f64::consts::FRAC_PI_2;
-use tests::assert_all_close;
+use tests::{assert_all_close, assert_close, at};
 use ukcore::simulate::Direction;
 use ukcore::{Event, Mechanism, Method, Simulation, State, Trajectory};
 
@@ -271,6 +271,92 @@ fn rounding_within_the_equations_is_told_and_not_refined_past() {
     let (askew, work) = run(0.7);
     assert!((plain - askew).abs() < 1e-8, "{plain} {askew}");
     assert!(work.rounded > 0 && work.evaluations < 150_000, "{work:?}");
+}
+
+ukcore::multibody! {
+    /// Three masses between walls, on springs.
+    Three {
+        params { m = 0.5, k = 30.0 }
+        coords { x, y, z }
+        mass { x: m, y: m, z: m }
+        potential { 0.5 * k * (sq(x) + sq(x - y) + sq(y - z) + sq(z)) }
+    }
+}
+
+/// The mass in the middle rests between two that swing far: what rounding makes of it is its own, and does not make these less exact; nor
+/// is the motion lost in it.
+#[test]
+fn rounding_of_one_coordinate_is_not_granted_to_others() {
+    for far in [1.0, 1e5, 1e7, 1e9, 1e12] {
+        for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+            for tolerance in [1e-8, 1e-10, 1e-12] {
+                let start = at(&[far, far * 1e-16, -far], &[0.0; 3]);
+                let run = Simulation::new(Three::default())
+                    .method(method)
+                    .tolerance(tolerance)
+                    .start(start)
+                    .until(10.0);
+                let name = format!("{far:e}, {method}, {tolerance:e}");
+                let run = run.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+                let end = run.last().expect("an end").q[0] / far;
+                assert_close(
+                    &name,
+                    end,
+                    (120_f64.sqrt() * 10.0).cos(),
+                    50.0 * tolerance + 1e-10,
+                );
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A body in Euler's angles.
+    Euler {
+        params { j[3] = [0.2, 0.3, 0.45] }
+        coords { a, b, c }
+        let w = [
+            dot(c) - dot(a) * sin(b),
+            dot(b) * cos(c) + dot(a) * cos(b) * sin(c),
+            dot(a) * cos(b) * cos(c) - dot(b) * sin(c),
+        ];
+        kinetic { 0.5 * (j[0] * sq(w[0]) + j[1] * sq(w[1]) + j[2] * sq(w[2])) }
+    }
+}
+
+/// Beside gimbal lock 1 − sin² b is rounded, the same at all stages of a step: what that makes of the motion is told, not taken for it.
+#[test]
+fn rounding_that_no_estimate_shows_is_told() {
+    let mut told = 0;
+    for rate in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7] {
+        for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-9] {
+                let turn = rate / 0.3_f64.cos();
+                let start = at(&[0.0, 0.3, 0.0], &[turn, 2.0, turn * 0.3_f64.sin()]);
+                let run = Simulation::new(Euler::default())
+                    .method(method)
+                    .tolerance(tolerance)
+                    .start(start)
+                    .until(2.0);
+                let name = format!("{rate:e}, {method}, {tolerance:e}");
+                match run {
+                    Ok(run) => {
+                        let drift = run.energy_drift();
+                        assert!(drift < 5e-5 + 1e3 * tolerance, "{name}: {drift:e}");
+                    }
+                    Err(failure) => {
+                        let text = failure.to_string();
+                        assert!(
+                            rate < 1e-4 && text.contains("rounding makes"),
+                            "{name}: {text}"
+                        );
+                        told += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(told > 0);
 }
 
 ukcore::multibody! {

@@ -167,6 +167,21 @@ impl Metric {
         }
     }
 
+    /// Which share of M⁻¹ Q rounding of the entries of M may be: ε over the least that a coordinate's inertia keeps beside the others'. 1 at
+    /// most.
+    pub(crate) fn rounding(&mut self, mass: &[f64]) -> f64 {
+        let n = self.n;
+        if self.l.is_empty() {
+            return 0.0;
+        }
+        if self.classify(mass).is_err() {
+            return 1.0;
+        }
+        let roots = (0..n).map(|k| self.unit[k * n + k]);
+        let least = roots.fold(1.0, f64::min);
+        (f64::EPSILON / (least * least)).min(1.0)
+    }
+
     /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets, by `measure`, which makes coordinates of different
     /// units comparable, the largest scale of the massive ones in its rows, so that it neither hides them nor is hidden; or of all, if
     /// there are none. How large the entries of that row are does not matter: as one of them vanishes, the coordinate would become

@@ -77,6 +77,8 @@ pub struct Solver {
     full: usize,
     /// Least significance of a row that counts, since it was last asked for; 0 where the rank is less than it was elsewhere.
     weakest: f64,
+    /// Fallbacks when the rounding of a solve was looked at.
+    looked_at: usize,
     n: usize,
     m: usize,
     here: Evaluated,
@@ -129,6 +131,7 @@ impl Solver {
             singular: false,
             full: 0,
             weakest: 1.0,
+            looked_at: 0,
             n,
             m,
             here: Evaluated::new(n, m),
@@ -248,6 +251,17 @@ impl Solver {
         self.solve_for_force(formula, out);
         self.remember(formula);
         self.check(at, tolerance, out)
+    }
+
+    /// Which share of the accelerations at a state the solve itself may be off by, beside what rounding of the state makes of them: it need
+    /// not change with the state, as that of 1 − sin² where both are all but the same. 0 where constraints decide, or nothing says so.
+    pub(crate) fn blur(&mut self, (t, q, v): Given<'_>) -> f64 {
+        let fallbacks = self.work.fallbacks;
+        if self.m > 0 || std::mem::replace(&mut self.looked_at, fallbacks) == fallbacks {
+            return 0.0;
+        }
+        self.here.dynamics(&self.mechanism, t, q, v);
+        self.dense.metric.rounding(&self.here.mass)
     }
 
     /// Leaves c out of what [`Solver::solve`] solves: it may be no number where reactions are not, while constraints are what they are.

@@ -170,6 +170,14 @@ pub(crate) trait Problem {
     fn vanishing(&mut self, _old: Sample<'_>, _new: Option<Sample<'_>>) -> Option<Singular> {
         None
     }
+    /// Whether coordinates are all of one kind, and none has a size of its own: M and A are constant, and no angle is among them.
+    fn is_even(&self) -> bool {
+        false
+    }
+    /// Which share of the accelerations at a state is rounding that does not show beside it.
+    fn blur(&mut self, _at: Sample<'_>) -> f64 {
+        0.0
+    }
     /// A position where the motion does not just go on, on a step from `old` to `new` that goes over another one at the time `over`.
     fn met_beside(&mut self, _old: Sample<'_>, _new: Sample<'_>, _over: f64) -> Option<Singular> {
         None

@@ -192,6 +192,15 @@ impl Problem for Run<'_> {
         obstacles::vanishing(mechanism, found, old)
     }
 
+    fn is_even(&self) -> bool {
+        let structure = &self.solver.mechanism().spec().structure;
+        structure.mass_constant && structure.jacobian_constant && structure.angles.is_empty()
+    }
+
+    fn blur(&mut self, at: Sample<'_>) -> f64 {
+        self.solver.blur((at.t, at.q, at.v))
+    }
+
     fn met_beside(&mut self, old: Sample<'_>, new: Sample<'_>, over: f64) -> Option<Singular> {
         let mechanism = self.solver.mechanism();
         let found = self.rows.beside(mechanism, old, new, over)?;
