@@ -346,10 +346,8 @@ fn rounding_that_no_estimate_shows_is_told() {
                     }
                     Err(failure) => {
                         let text = failure.to_string();
-                        assert!(
-                            rate < 1e-4 && text.contains("rounding makes"),
-                            "{name}: {text}"
-                        );
+                        let why = text.contains("rounding makes") || text.contains("fall in line");
+                        assert!(rate < 1e-4 && why, "{name}: {text}");
                         told += 1;
                     }
                 }

@@ -10,8 +10,8 @@ use crate::numbers::full;
 pub enum Error {
     /// rank [M | Aᵀ] < n (the condition of eq. 19): these coordinates have neither mass nor constraint in some direction.
     #[error(
-        "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or \
-         add a constraint",
+        "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass, add \
+         a constraint, or take other coordinates where these are two angles about axes that fall in line",
         quoted(coordinates)
     )]
     Underdetermined {
@@ -151,8 +151,8 @@ pub enum Error {
     /// Rounding of accelerations makes more of a step than any motion could be told by.
     #[error(
         "rounding makes {share:.0e} of the motion in one step here, most of it along `{coordinate}`: coordinates are near a place where \
-         they tell little of it, as two angles about axes that all but fall in line, or forces all but cancel; take other coordinates, or \
-         a looser tolerance, whose steps go over the place"
+         they tell little of it, as two angles about axes that all but fall in line, forces all but cancel, or a mass all but vanishes; take \
+         other coordinates, or a looser tolerance, whose steps go over the place"
     )]
     Rounding {
         /// The coordinate whose acceleration is known least.

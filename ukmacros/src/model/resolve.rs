@@ -266,6 +266,11 @@ impl Family {
 /// Enters a member, and its family with the first; whether that is so.
 fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) -> bool {
     let text = found.name.to_string();
+    if kind == Kind::Body && text == "ground" {
+        let message = "the ground is there already, and does not move; give the body another name";
+        diag.error(found.loc, message);
+        return false;
+    }
     let known = match (model.names.get(&text), kind) {
         (Some(Name::Param(f)), Kind::Param)
         | (Some(Name::Coord(f)), Kind::Coord)

@@ -245,6 +245,7 @@ cases! {
     closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
     cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
+    body_called_ground: "bodies { planar «ground» { mass: 1, inertia: 1 } }" => "the ground is there already, and does not move; give the body another name";
     unit_without_brackets: "params { a = 1 «rad», m = 1 } coords { x } mass { x: m }" => "a unit stands in brackets: `1 [rad]`";
     units_without_brackets: "params { a = -1.5 «kg» m } coords { x } mass { x: 1 }" => "a unit stands in brackets: `1.5 [kg]`";
     pow: "coords { x } mass { x: 1 } force { x: -x.«pow»(2) }" => "a power is written `x.powi(2)`, with a whole exponent, `x.powf(y)` or `sq(x)`";
