@@ -259,6 +259,77 @@ fn turns_within_a_step_are_all_counted() {
     }
 }
 
+/// The evaluations of an event in a run of a swing from rest at 1, and its zeros.
+fn watched(
+    start: f64,
+    (method, tolerance): (Method, f64),
+    function: impl Fn(f64, f64) -> f64 + 'static,
+) -> (usize, Vec<f64>) {
+    let calls = std::rc::Rc::new(std::cell::Cell::new(0));
+    let counted = std::rc::Rc::clone(&calls);
+    let event = Event::new("event", move |t, q, _| {
+        counted.set(counted.get() + 1);
+        function(t, q[0])
+    });
+    let run = Simulation::new(Bumper { k: 0.0, w: 1.0 })
+        .method(method)
+        .tolerance(tolerance)
+        .start(State {
+            t: start,
+            ..at(&[1.0], &[0.0])
+        })
+        .event(event)
+        .until(start + 10.0)
+        .expect("it swings");
+    let hits = run.events("event").expect("an event");
+    (calls.get(), hits.map(|hit| hit.t - start).collect())
+}
+
+/// What does not change, jumps, or is nothing but rounding is looked at seldom, and found; nor are steps refused for it for long.
+#[test]
+fn events_that_are_not_smooth_are_looked_at_seldom() {
+    let rattle = Method::Rattle { step: 0.01 };
+    for method in METHODS.into_iter().chain([rattle]) {
+        for tolerance in [1e-4, 1e-8, 1e-12] {
+            for start in [0.0, 1e4] {
+                let name = format!("{method}, {tolerance:e}, {start:e}");
+                let pair = (method, tolerance);
+                let (plain, _) = watched(start, pair, |_, x| x + 3.0);
+                for constant in [0.1, 1.0, -1e-300] {
+                    let (calls, hits) = watched(start, pair, move |_, _| constant);
+                    assert!(
+                        hits.is_empty() && calls <= 2 * plain,
+                        "{name}: {calls} {plain}"
+                    );
+                }
+                let (calls, hits) = watched(start, pair, |_, x| if x > 0.0 { 1.0 } else { -1.0 });
+                assert!(
+                    hits.len() == 3 && calls < 3 * plain + 1500,
+                    "{name}: {calls} {hits:?}"
+                );
+                let (_, hits) = watched(start, pair, move |t, _| t - start - 2.51);
+                assert!(
+                    hits.len() == 1 && (hits[0] - 2.51).abs() < 1e-9,
+                    "{name}: {hits:?}"
+                );
+                // It is at rest where it starts: no zero is passed.
+                let (_, hits) = watched(start, pair, |_, x| x - 1.0);
+                assert!(hits.iter().all(|t| *t > 6.0), "{name}: {hits:?}");
+                let (calls, _) = watched(start, pair, move |t, x| x - (t - start).cos());
+                assert!(calls < 200_000, "{name}: {calls}");
+            }
+        }
+    }
+    // Steps of one size cannot be shorter.
+    let (_, hits) = watched(0.0, (rattle, 1e-6), |t, _| {
+        if t > 0.0251 && t < 0.0349 { 1.0 } else { -1.0 }
+    });
+    assert!(
+        hits.len() == 2 && (hits[0] - 0.0251).abs() < 1e-9,
+        "{hits:?}"
+    );
+}
+
 /// An event that is nothing but rounding does not take a run longer than a moment.
 #[test]
 fn noise_is_not_looked_at_for_long() {

@@ -12,6 +12,9 @@ const SOON: f64 = 1e-3;
 const NEARER: f64 = 0.5;
 const SOONEST: f64 = 1e-16;
 
+/// What is no more than so many times what an error of ε in the state makes of it is rounding.
+const ROUNDING: f64 = 8.0;
+
 /// Where they are looked at then, so unevenly that no turns come out even at all of them.
 const LOOKS: [f64; 8] = [0.11, 0.27, 0.36, 0.52, 0.61, 0.77, 0.88, 1.0];
 
@@ -20,11 +23,15 @@ const LOOKS: [f64; 8] = [0.11, 0.27, 0.36, 0.52, 0.61, 0.77, 0.88, 1.0];
 const ROUGH: f64 = 0.1;
 const BETWEEN: f64 = 0.45;
 
-/// Looks at a step at most, none nearer than this share of it. Where so many do not tell, shorter steps may, until so many of them in a row
-/// do not either: then it is noise.
+/// What differs by less than this share of itself does not change.
+const CHANGE: f64 = 1e-10;
+
+/// Looks at a step at most, none nearer than this share of it. Where so many do not tell, shorter steps may, until so many of them
+/// do not either: then it is noise, and so many steps go by before more looks are tried again, the next time twice as many.
 const MOST: usize = 4096;
 const NEAREST: f64 = 1e-5;
 const PATIENCE: usize = 8;
+const REST: usize = 64;
 
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -154,8 +161,10 @@ pub(crate) struct Watch {
     /// Crossings of the current step in the order of time.
     pub(crate) crossings: Vec<Crossing>,
     state: Vec<f64>,
-    /// Steps in a row that were too long to tell how events go.
+    /// Steps that were too long to tell how events go, less those that were not; steps that are not asked.
     untold: usize,
+    rest: usize,
+    next_rest: usize,
 }
 
 impl Watch {
@@ -168,6 +177,8 @@ impl Watch {
             crossings: Vec::new(),
             state: vec![0.0; 2 * coordinates],
             untold: 0,
+            rest: 0,
+            next_rest: REST,
             events,
         }
     }
@@ -180,12 +191,13 @@ impl Watch {
         Ok(())
     }
 
-    /// Finds the crossings in the step from `t_old` to `t`, up to the first terminal one. Whether they can be told; else the step is to be
-    /// shorter.
+    /// Finds the crossings in the step from `t_old` to `t`, up to the first terminal one; nothing, and false, where a `shorter` step may be
+    /// made and is needed to tell them.
     pub(crate) fn search(
         &mut self,
         t_old: f64,
         t: f64,
+        shorter: bool,
         states: &mut impl States,
     ) -> Result<bool, Error> {
         let Watch {
@@ -195,6 +207,8 @@ impl Watch {
             crossings,
             state,
             untold,
+            rest,
+            next_rest,
         } = self;
         crossings.clear();
         if events.is_empty() {
@@ -202,11 +216,22 @@ impl Watch {
         }
         current.copy_from_slice(accepted);
         let mut looks = looks(events, current, [t_old, t], states, state)?;
-        if *untold < PATIENCE {
-            let told = refine(events, current, [t_old, t], &mut looks, states, state)?;
-            *untold = if told { 0 } else { *untold + 1 };
-            if !told {
-                return Ok(*untold == PATIENCE);
+        if *rest > 0 {
+            *rest -= 1;
+        } else {
+            let few = looks.clone();
+            if refine(events, current, [t_old, t], &mut looks, states, state)? {
+                *untold = untold.saturating_sub(1);
+            } else {
+                *untold += 1;
+                if *untold < PATIENCE && shorter {
+                    return Ok(false);
+                }
+                looks = few;
+            }
+            if *untold >= PATIENCE {
+                (*untold, *rest) = (PATIENCE - 1, *next_rest);
+                *next_rest *= 2;
             }
         }
         beside(events, current, t_old, &mut looks, states, state)?;
@@ -251,6 +276,47 @@ impl Watch {
     }
 }
 
+/// Values of all events next to the start of a step, where coordinates go by their velocities alone: what an interpolant makes of them is off
+/// by more than that.
+fn beginning(
+    events: &mut [Event],
+    [t_old, t]: [f64; 2],
+    states: &mut impl States,
+    state: &mut [f64],
+) -> Result<Vec<f64>, Error> {
+    let mut old = state.to_vec();
+    states.state(t_old, &mut old);
+    states.state(t, state);
+    let (q, v) = state.split_at_mut(old.len() / 2);
+    let (old_q, old_v) = old.split_at(old.len() / 2);
+    for (i, q) in q.iter_mut().enumerate() {
+        *q = old_q[i] + 0.5 * (t - t_old) * (old_v[i] + v[i]);
+    }
+    let values = events.iter_mut();
+    values
+        .map(|event| evaluate(event, Sample::of(t, state)))
+        .collect()
+}
+
+/// What errors of ε in the time and the state make of each event.
+fn roundings(
+    events: &mut [Event],
+    t: f64,
+    values: &[f64],
+    state: &[f64],
+) -> Result<Vec<f64>, Error> {
+    let mut most = vec![0.0_f64; events.len()];
+    for (k, moved) in crate::rounding::beside(state).enumerate() {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let t = t + sign * f64::EPSILON * t;
+        for (i, event) in events.iter_mut().enumerate() {
+            let there = evaluate(event, Sample::of(t, &moved))?;
+            most[i] = most[i].max((there - values[i]).abs());
+        }
+    }
+    Ok(most)
+}
+
 /// Values of all events at a time.
 type Look = (f64, Vec<f64>);
 
@@ -269,9 +335,19 @@ fn looks(
     let mut soon = Vec::new();
     let mut part = SOON;
     loop {
-        let values = all(events, at(part), states, state)?;
+        let values = match part < SOON {
+            true => beginning(events, [t_old, at(part)], states, state)?,
+            false => all(events, at(part), states, state)?,
+        };
         let mut pairs = before.iter().zip(&values);
         let nearer = pairs.any(|(a, b)| a.abs() < NEARER * b.abs());
+        if part < SOON {
+            let known = roundings(events, at(part), &values, state)?;
+            let mut pairs = values.iter().zip(known);
+            if pairs.any(|(value, known)| value.abs() <= ROUNDING * known) {
+                break;
+            }
+        }
         soon.push((at(part), values));
         part *= SOON;
         if !nearer || part < SOONEST {
@@ -308,15 +384,26 @@ fn refine(
     states: &mut impl States,
     state: &mut [f64],
 ) -> Result<bool, Error> {
+    let mut known = None;
     loop {
         let mut all_looks = vec![(t_old, before.to_vec())];
         all_looks.append(looks);
         let mut rough = vec![false; all_looks.len()];
         for (k, five) in all_looks.windows(5).enumerate() {
-            let is_rough = (0..events.len()).any(|i| is_rough(five, i));
+            let mut rough_here = (0..events.len()).any(|i| is_rough(five, i, 0.0));
+            if rough_here {
+                let known = match &mut known {
+                    Some(known) => known,
+                    None => {
+                        let values = all(events, five[2].0, states, state)?;
+                        known.insert(roundings(events, five[2].0, &values, state)?)
+                    }
+                };
+                rough_here = (0..known.len()).any(|i| is_rough(five, i, known[i]));
+            }
             rough[k + 1..k + 5]
                 .iter_mut()
-                .for_each(|rough| *rough |= is_rough);
+                .for_each(|rough| *rough |= rough_here);
         }
         let least = NEAREST * (t - t_old).abs();
         let mut more = Vec::new();
@@ -340,8 +427,8 @@ fn refine(
     }
 }
 
-/// Whether the third of five looks at event `i` is off the cubic through the others.
-fn is_rough(five: &[Look], i: usize) -> bool {
+/// Whether the third of five looks at event `i`, known to this, is off the cubic through the others.
+fn is_rough(five: &[Look], i: usize, known: f64) -> bool {
     let others = [0, 1, 3, 4];
     let middle = five[2].0;
     let mut value = 0.0;
@@ -353,7 +440,9 @@ fn is_rough(five: &[Look], i: usize) -> bool {
     let values = five.iter().map(|(_, values)| values[i]);
     let most = values.clone().fold(f64::NEG_INFINITY, f64::max);
     let least = values.fold(f64::INFINITY, f64::min);
-    (five[2].1[i] - value).abs() > ROUGH * (most - least)
+    let size = most.abs().max(least.abs());
+    let changes = most - least > (CHANGE * size).max(ROUNDING * known);
+    changes && (five[2].1[i] - value).abs() > ROUGH * (most - least)
 }
 
 fn in_order(looks: &mut [Look], t_old: f64) {
@@ -439,7 +528,7 @@ mod tests {
         watch.start(Sample::of(steps[0], &start)).unwrap();
         let mut found = Vec::new();
         for step in steps.windows(2) {
-            watch.search(step[0], step[1], &mut Line).unwrap();
+            watch.search(step[0], step[1], true, &mut Line).unwrap();
             found.extend(watch.crossings.iter().map(|c| (c.event, c.t, c.direction)));
             watch.accept();
         }
@@ -493,7 +582,7 @@ mod tests {
     fn a_function_that_is_not_a_number_is_an_error() {
         let mut watch = Watch::new(vec![Event::new("root", |_, q, _| q[0].sqrt())], 1);
         watch.start(Sample::of(1.0, &[1.0, 0.0])).unwrap();
-        let error = watch.search(1.0, -1.0, &mut Line).unwrap_err();
+        let error = watch.search(1.0, -1.0, true, &mut Line).unwrap_err();
         let what = vec!["event root".to_owned()];
         assert_eq!(error, Error::NonFinite { what });
     }

@@ -128,7 +128,6 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     }
     let still: Vec<usize> = (0..shapes.len()).filter(|k| shapes[*k].stays()).collect();
     let costless = costless(&tangent, &reduced, still.len());
-    // Each counts twice where it can be moved along, too.
     for (k, shape) in still.into_iter().zip(costless.iter().cycle()) {
         shapes[k].shape.clone_from(shape);
     }
@@ -209,17 +208,35 @@ fn share_out(
     Some(other)
 }
 
-/// Displacements that R, `reduced`, leaves where they are, `most` at most: of each a coordinate stays where it is in the others.
+/// Displacements that R, `reduced`, leaves where they are, `most` at most; and once more those along which it can move, too.
 fn costless(
     tangent: &DMatrix<f64>,
     reduced: &DMatrix<f64>,
     most: usize,
 ) -> Vec<DVector<Complex<f64>>> {
-    let (decomposed, pivots) = pivoted(&(reduced / or_one(reduced.norm())));
-    let rank = pivots.iter().filter(|x| **x > TOGETHER).count();
-    let rank = rank.max(pivots.len().saturating_sub(most));
-    let n = tangent.nrows() / 2;
-    let mut all = tangent.rows(0, n) * complement(pivots.len(), &decomposed, rank);
+    let scaled = reduced / or_one(reduced.norm());
+    let still = |rows: &DMatrix<f64>| {
+        let (decomposed, pivots) = pivoted(rows);
+        let rank = pivots.iter().filter(|x| **x > TOGETHER).count();
+        let rank = rank.max(pivots.len().saturating_sub(most));
+        complement(pivots.len(), &decomposed, rank)
+    };
+    let (all, across) = (still(&scaled), still(&scaled.transpose()));
+    // R moves along what it reaches: what is at right angles to all that its transpose leaves where it is.
+    let met = across.tr_mul(&all);
+    let (decomposed, pivots) = pivoted(&met);
+    let rank = pivots.iter().filter(|x| **x > NEW).count();
+    let moving = &all * complement(pivots.len(), &decomposed, rank);
+    let positions = tangent.rows(0, tangent.nrows() / 2);
+    let shapes = [all, moving].map(|part| apart(positions * part));
+    let columns = shapes.iter().flat_map(|shapes| shapes.column_iter());
+    columns
+        .map(|column| column.map(|x| Complex::new(x, 0.0)))
+        .collect()
+}
+
+/// Sums of displacements, of each of which a coordinate stays where it is in the others.
+fn apart(mut all: DMatrix<f64>) -> DMatrix<f64> {
     for k in 0..all.ncols() {
         let own = all.column(k).icamax();
         let one = all.column(k) / all[(own, k)];
@@ -228,10 +245,7 @@ fn costless(
         }
         all.set_column(k, &one);
     }
-    let columns = all.column_iter();
-    columns
-        .map(|column| column.map(|x| Complex::new(x, 0.0)))
-        .collect()
+    all
 }
 
 /// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.

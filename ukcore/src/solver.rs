@@ -77,8 +77,8 @@ pub struct Solver {
     full: usize,
     /// Least significance of a row that counts, since it was last asked for; 0 where the rank is less than it was elsewhere.
     weakest: f64,
-    /// Fallbacks when the rounding of a solve was looked at.
-    looked_at: usize,
+    /// The last accelerations are of the rank-revealing solve.
+    round: bool,
     n: usize,
     m: usize,
     here: Evaluated,
@@ -131,7 +131,7 @@ impl Solver {
             singular: false,
             full: 0,
             weakest: 1.0,
-            looked_at: 0,
+            round: false,
             n,
             m,
             here: Evaluated::new(n, m),
@@ -186,6 +186,7 @@ impl Solver {
         at: Given<'_>,
         out: &mut [f64],
     ) -> Result<(), Error> {
+        self.round = false;
         match self.goes_straight(at, out) {
             true => Ok(()),
             false => self.goes_round(at, out),
@@ -246,6 +247,7 @@ impl Solver {
 
     /// Accelerations by the rank-revealing solve.
     fn rank_revealing(&mut self, at: Given<'_>, out: &mut [f64]) -> Result<(), Error> {
+        self.round = true;
         let (formula, tolerance) = self.decide(at)?;
         self.apply_all_forces();
         self.solve_for_force(formula, out);
@@ -253,14 +255,12 @@ impl Solver {
         self.check(at, tolerance, out)
     }
 
-    /// Which share of the accelerations at a state the solve itself may be off by, beside what rounding of the state makes of them: it need
-    /// not change with the state, as that of 1 − sin² where both are all but the same. 0 where constraints decide, or nothing says so.
-    pub(crate) fn blur(&mut self, (t, q, v): Given<'_>) -> f64 {
-        let fallbacks = self.work.fallbacks;
-        if self.m > 0 || std::mem::replace(&mut self.looked_at, fallbacks) == fallbacks {
+    /// Which share of the last accelerations the solve itself may be off by, beside what rounding of the state makes of them: it need not
+    /// change with the state, as that of 1 − sin² where both are all but the same. 0 where constraints decide, or they are certified.
+    pub(crate) fn blur(&mut self) -> f64 {
+        if self.m > 0 || !self.round {
             return 0.0;
         }
-        self.here.dynamics(&self.mechanism, t, q, v);
         self.dense.metric.rounding(&self.here.mass)
     }
 

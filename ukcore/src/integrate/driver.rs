@@ -104,8 +104,8 @@ struct Driver<'p> {
     measured: Option<usize>,
     /// Whether a method feels all of it: an implicit one none of that of stiff forces.
     explicit: bool,
-    /// How long steps were then.
-    measured_at: f64,
+    /// The longest step since.
+    longest: f64,
 }
 
 impl Method {
@@ -172,7 +172,7 @@ impl<'p> Driver<'p> {
             raised: settings.tolerance.clone(),
             measured: varies.then_some(0),
             explicit,
-            measured_at: 0.0,
+            longest: 0.0,
         }
     }
 
@@ -240,7 +240,8 @@ impl Driver<'_> {
         // Steps may be so short that none is refused for the rounding in it. Where they get shorter there may be more of what errors do not
         // show, being the same at all stages of a step.
         self.measure(SELDOM);
-        if self.equations.course.h.abs() < SHRUNK * self.measured_at {
+        self.longest = self.longest.max(h.abs());
+        if h.abs() < SHRUNK * self.longest {
             self.uncover();
         }
         (self.passage.plans, self.passage.astray) = (0, false);
@@ -388,7 +389,7 @@ impl Driver<'_> {
             return;
         }
         self.measured = Some(attempts);
-        self.measured_at = course.h.abs();
+        self.longest = course.h.abs();
         let Ok([all, hidden]) = self.rounding(s) else {
             return;
         };
@@ -410,7 +411,7 @@ impl Driver<'_> {
 
     /// Measures it where part of it does not show in errors.
     fn uncover(&mut self) {
-        self.measured_at = self.equations.course.h.abs();
+        self.longest = self.equations.course.h.abs();
         let hidden = self.hidden(self.equations.course.now.s);
         if hidden.is_ok_and(|hidden| hidden.iter().any(|x| *x > 0.0)) {
             self.measure(0);
@@ -452,7 +453,7 @@ impl Driver<'_> {
         let y = self.scheme.start();
         let mut now = vec![0.0; y.len() / 2];
         self.equations.acceleration(s, y, &mut now)?;
-        let blur = (self.equations.problem).blur(self.equations.at(s, y));
+        let blur = self.equations.problem.blur();
         Ok(now.into_iter().map(|x| blur * x.abs()).collect())
     }
 

@@ -174,8 +174,8 @@ pub(crate) trait Problem {
     fn is_even(&self) -> bool {
         false
     }
-    /// Which share of the accelerations at a state is rounding that does not show beside it.
-    fn blur(&mut self, _at: Sample<'_>) -> f64 {
+    /// Which share of the last accelerations is rounding that does not show beside their state.
+    fn blur(&mut self) -> f64 {
         0.0
     }
     /// A position where the motion does not just go on, on a step from `old` to `new` that goes over another one at the time `over`.

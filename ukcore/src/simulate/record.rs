@@ -102,9 +102,10 @@ impl<'s> Recorder<'s> {
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
-        let told = self.watch.search(step.old.t, step.until, &mut within)?;
-        // Steps of one size have no estimate, and cannot be shorter.
-        if !told && step.error.is_some() {
+        // Steps of one size have no estimate.
+        let shorter = step.error.is_some();
+        let told = (self.watch).search(step.old.t, step.until, shorter, &mut within)?;
+        if !told {
             return Ok(UNTOLD);
         }
         let mut t_stop = step.until;

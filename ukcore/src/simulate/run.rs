@@ -197,8 +197,8 @@ impl Problem for Run<'_> {
         structure.mass_constant && structure.jacobian_constant && structure.angles.is_empty()
     }
 
-    fn blur(&mut self, at: Sample<'_>) -> f64 {
-        self.solver.blur((at.t, at.q, at.v))
+    fn blur(&mut self) -> f64 {
+        self.solver.blur()
     }
 
     fn met_beside(&mut self, old: Sample<'_>, new: Sample<'_>, over: f64) -> Option<Singular> {
