@@ -54,8 +54,9 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// Where g is not a number, the run fails with an error that says so.
 ///
 /// Signs are compared soon after the start of a step, at some eight places along it, at more where these do not tell how g goes, as along a
-/// long step while a wheel turns many times, and where g is nearest to zero between them. Two zeros of g can be missed where it changes
-/// for less than an eighth of a step and is smooth beside that; [`max_step`](crate::Simulation::max_step) makes the search finer.
+/// long step while a wheel turns many times, and where g is nearest to zero between them; a step on which four thousand do not tell is made
+/// shorter. Two zeros of g can be missed where it changes for less than an eighth of a step and is smooth beside that;
+/// [`max_step`](crate::Simulation::max_step) makes the search finer.
 ///
 /// ```
 /// use ukcore::simulate::{Direction, Event};
