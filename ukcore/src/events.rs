@@ -4,32 +4,13 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::zero::{below, locate};
+use crate::zero::locate;
+use looks::Looks;
 
-/// Part of a step after which events are looked at first: a run that goes on from an event may begin a rounding behind its zero. So much
-/// sooner, again and again, where a function has less than a share of what it has then at the start.
-const SOON: f64 = 1e-3;
-const NEARER: f64 = 0.5;
-const SOONEST: f64 = 1e-16;
+mod looks;
 
-/// What is no more than so many times what an error of ε in the state makes of it is rounding.
-const ROUNDING: f64 = 8.0;
-
-/// Where they are looked at then, so unevenly that no turns come out even at all of them.
-const LOOKS: [f64; 8] = [0.11, 0.27, 0.36, 0.52, 0.61, 0.77, 0.88, 1.0];
-
-/// A value that differs from what those beside it say by more than this share of their range is of a function that changes too often to
-/// tell; there are to be more then, with others between at this part of the way.
-const ROUGH: f64 = 0.1;
-const BETWEEN: f64 = 0.45;
-
-/// What differs by less than this share of itself does not change.
-const CHANGE: f64 = 1e-10;
-
-/// Looks at a step at most, none nearer than this share of it. Where so many do not tell, shorter steps may, until so many of them
-/// do not either: then it is noise, and so many steps go by before more looks are tried again, the next time twice as many.
-const MOST: usize = 4096;
-const NEAREST: f64 = 1e-5;
+/// Where all looks at a step do not tell how events go, shorter steps may, until so many of them do not either: then it is noise, and so
+/// many steps go by before more looks are tried again, the next time twice as many.
 const PATIENCE: usize = 8;
 const REST: usize = 64;
 
@@ -186,9 +167,7 @@ impl Watch {
 
     /// Evaluates the events at the start of the run.
     pub(crate) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
-        for (event, value) in self.events.iter_mut().zip(&mut self.accepted) {
-            *value = evaluate(event, at)?;
-        }
+        self.accepted = values(&mut self.events, at)?;
         Ok(())
     }
 
@@ -216,12 +195,12 @@ impl Watch {
             return Ok(true);
         }
         current.copy_from_slice(accepted);
-        let mut looks = looks(events, current, [t_old, t], states, state)?;
+        let mut looks = Looks::new(events, current, [t_old, t], states, state)?;
         if *rest > 0 {
             *rest -= 1;
         } else {
             let few = looks.clone();
-            if refine(events, current, [t_old, t], &mut looks, states, state)? {
+            if looks.refine(events, states, state)? {
                 *untold = untold.saturating_sub(1);
             } else {
                 *untold += 1;
@@ -235,9 +214,9 @@ impl Watch {
                 *next_rest *= 2;
             }
         }
-        beside(events, current, t_old, &mut looks, states, state)?;
+        looks.find_dips(events, states, state)?;
         let mut a = t_old;
-        for (b, values) in looks {
+        for (b, values) in looks.all {
             let found = crossings.len();
             for (i, after) in values.into_iter().enumerate() {
                 let before = current[i];
@@ -277,227 +256,9 @@ impl Watch {
     }
 }
 
-/// Values of all events next to the start of a step, where coordinates go by their velocities alone: what an interpolant makes of them is off
-/// by more than that.
-fn beginning(
-    events: &mut [Event],
-    [t_old, t]: [f64; 2],
-    states: &mut impl States,
-    state: &mut [f64],
-) -> Result<Vec<f64>, Error> {
-    let mut old = state.to_vec();
-    states.state(t_old, &mut old);
-    states.state(t, state);
-    let (q, v) = state.split_at_mut(old.len() / 2);
-    let (old_q, old_v) = old.split_at(old.len() / 2);
-    for (i, q) in q.iter_mut().enumerate() {
-        *q = old_q[i] + 0.5 * (t - t_old) * (old_v[i] + v[i]);
-    }
-    let values = events.iter_mut();
-    values
-        .map(|event| evaluate(event, Sample::of(t, state)))
-        .collect()
-}
-
-/// What errors of ε in the time and the state make of each event.
-fn roundings(
-    events: &mut [Event],
-    t: f64,
-    values: &[f64],
-    state: &[f64],
-) -> Result<Vec<f64>, Error> {
-    let mut most = vec![0.0_f64; events.len()];
-    for (k, moved) in crate::rounding::beside(state).enumerate() {
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        let t = t + sign * f64::EPSILON * t;
-        for (i, event) in events.iter_mut().enumerate() {
-            let there = evaluate(event, Sample::of(t, &moved))?;
-            most[i] = most[i].max((there - values[i]).abs());
-        }
-    }
-    Ok(most)
-}
-
-/// Values of all events at a time.
-type Look = (f64, Vec<f64>);
-
-/// Looks at events along a step whose start they have the values `before` at, up to where a terminal one has changed its sign.
-fn looks(
-    events: &mut [Event],
-    before: &[f64],
-    [t_old, t]: [f64; 2],
-    states: &mut impl States,
-    state: &mut [f64],
-) -> Result<Vec<Look>, Error> {
-    let at = |part: f64| match part {
-        1.0 => t,
-        part => t_old + (t - t_old) * part,
-    };
-    let mut soon = Vec::new();
-    let mut part = SOON;
-    loop {
-        let values = match part < SOON {
-            true => beginning(events, [t_old, at(part)], states, state)?,
-            false => all(events, at(part), states, state)?,
-        };
-        let mut pairs = before.iter().zip(&values);
-        let nearer = pairs.any(|(a, b)| a.abs() < NEARER * b.abs());
-        if part < SOON {
-            let known = roundings(events, at(part), &values, state)?;
-            let mut pairs = values.iter().zip(known);
-            if pairs.any(|(value, known)| value.abs() <= ROUNDING * known) {
-                break;
-            }
-        }
-        soon.push((at(part), values));
-        part *= SOON;
-        if !nearer || part < SOONEST {
-            break;
-        }
-    }
-    let mut looks: Vec<Look> = Vec::new();
-    let later = LOOKS.into_iter().map(|part| (at(part), Vec::new()));
-    for (b, known) in soon.into_iter().rev().chain(later) {
-        let values = match known.is_empty() {
-            true => all(events, b, states, state)?,
-            false => known,
-        };
-        let last = looks.last().map_or(before, |(_, values)| values);
-        let mut pairs = last.iter().zip(&values).zip(&*events);
-        let ends = |((a, b), event): ((&f64, &f64), &Event)| {
-            event.terminal && event.crosses(*a, *b).is_some()
-        };
-        let ended = pairs.any(ends);
-        looks.push((b, values));
-        if ended {
-            break;
-        }
-    }
-    Ok(looks)
-}
-
-/// Adds looks until they tell how the events go. Whether they do.
-fn refine(
-    events: &mut [Event],
-    before: &[f64],
-    [t_old, t]: [f64; 2],
-    looks: &mut Vec<Look>,
-    states: &mut impl States,
-    state: &mut [f64],
-) -> Result<bool, Error> {
-    let mut known = None;
-    loop {
-        let mut all_looks = vec![(t_old, before.to_vec())];
-        all_looks.append(looks);
-        let mut rough = vec![false; all_looks.len()];
-        for (k, five) in all_looks.windows(5).enumerate() {
-            let mut rough_here = (0..events.len()).any(|i| is_rough(five, i, 0.0));
-            if rough_here {
-                let known = match &mut known {
-                    Some(known) => known,
-                    None => {
-                        let values = all(events, five[2].0, states, state)?;
-                        known.insert(roundings(events, five[2].0, &values, state)?)
-                    }
-                };
-                rough_here = (0..known.len()).any(|i| is_rough(five, i, known[i]));
-            }
-            rough[k + 1..k + 5]
-                .iter_mut()
-                .for_each(|rough| *rough |= rough_here);
-        }
-        let least = NEAREST * (t - t_old).abs();
-        let mut more = Vec::new();
-        for (k, pair) in all_looks.windows(2).enumerate() {
-            let way = pair[1].0 - pair[0].0;
-            if rough[k + 1] && way.abs() > least {
-                more.push(pair[0].0 + BETWEEN * way);
-            }
-        }
-        looks.extend(all_looks.drain(1..));
-        if more.is_empty() {
-            return Ok(true);
-        }
-        if looks.len() + more.len() > MOST {
-            return Ok(false);
-        }
-        for b in more {
-            looks.push((b, all(events, b, states, state)?));
-        }
-        in_order(looks, t_old);
-    }
-}
-
-/// Whether the third of five looks at event `i`, known to this, is off the cubic through the others.
-fn is_rough(five: &[Look], i: usize, known: f64) -> bool {
-    let others = [0, 1, 3, 4];
-    let middle = five[2].0;
-    let mut value = 0.0;
-    for k in others {
-        let parts = others.into_iter().filter(|l| *l != k);
-        let share = parts.map(|l| (middle - five[l].0) / (five[k].0 - five[l].0));
-        value += five[k].1[i] * share.product::<f64>();
-    }
-    let values = five.iter().map(|(_, values)| values[i]);
-    let most = values.clone().fold(f64::NEG_INFINITY, f64::max);
-    let least = values.fold(f64::INFINITY, f64::min);
-    let size = most.abs().max(least.abs());
-    let changes = most - least > (CHANGE * size).max(ROUNDING * known);
-    changes && (five[2].1[i] - value).abs() > ROUGH * (most - least)
-}
-
-fn in_order(looks: &mut [Look], t_old: f64) {
-    let way = |look: &Look| (look.0 - t_old).abs();
-    looks.sort_by(|a, b| way(a).total_cmp(&way(b)));
-}
-
-/// Adds a look where an event that is nearest to zero between others has changed its sign there.
-fn beside(
-    events: &mut [Event],
-    before: &[f64],
-    t_old: f64,
-    looks: &mut Vec<Look>,
-    states: &mut impl States,
-    state: &mut [f64],
-) -> Result<(), Error> {
-    let start = (t_old, before.to_vec());
-    let all_looks: Vec<&Look> = [&start].into_iter().chain(&*looks).collect();
-    let mut more = Vec::new();
-    for window in all_looks.windows(3) {
-        let &[(a, first), (_, middle), (b, last)] = window else {
-            continue;
-        };
-        for i in 0..events.len() {
-            let sign = middle[i].signum();
-            let [first, middle, last] = [first, middle, last].map(|values| sign * values[i]);
-            if !(middle > 0.0 && first > middle && last >= middle) {
-                continue;
-            }
-            let g = |t: f64| {
-                states.state(t, state);
-                Ok(sign * evaluate(&mut events[i], Sample::of(t, state))?)
-            };
-            more.extend(below(g, 0.0, *a, *b)?);
-        }
-    }
-    for b in more {
-        looks.push((b, all(events, b, states, state)?));
-    }
-    in_order(looks, t_old);
-    Ok(())
-}
-
-fn all(
-    events: &mut [Event],
-    t: f64,
-    states: &mut impl States,
-    state: &mut [f64],
-) -> Result<Vec<f64>, Error> {
-    states.state(t, state);
-    let values = events.iter_mut();
-    values
-        .map(|event| evaluate(event, Sample::of(t, state)))
-        .collect()
+/// Values of all events at a state.
+fn values(events: &mut [Event], at: Sample<'_>) -> Result<Vec<f64>, Error> {
+    events.iter_mut().map(|event| evaluate(event, at)).collect()
 }
 
 fn evaluate(event: &mut Event, at: Sample<'_>) -> Result<f64, Error> {

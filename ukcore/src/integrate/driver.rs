@@ -8,38 +8,19 @@ use super::rattle::Rattle;
 use super::sample::Sample;
 use super::scheme::{Equations, Scheme};
 use super::stepper::Stepper;
-use super::sums::{error_norm, projection_norm};
+use super::sums::projection_norm;
 use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
-use crate::rounding::beside;
-use crate::scan::{all_finite, place_of_largest};
+use crate::scan::all_finite;
+use noise::{CLEARLY, LOST, Noise, OFTEN, SELDOM};
 use passage::Passage;
 use switching::Goal;
 
+mod noise;
 mod passage;
 mod switching;
-
-/// Attempts from one measurement of rounding to the next, and where steps are nearly lost in the rounding of the time: it takes as many
-/// evaluations as one of them.
-const SELDOM: usize = 1000;
-const OFTEN: usize = 5;
-
-/// It is measured again where steps have got shorter by this share since.
-const SHRUNK: f64 = 1.0 / 32.0;
-
-/// Roundings of the time over which a difference is nothing but that of accelerations.
-const CLEARLY: f64 = 1024.0;
-
-/// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
-const STAGES: f64 = 1.5;
-/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
-const SAMPLED: f64 = 2.5;
-
-/// Rounding may make so many times the tolerance of a step, or this share of the motion, before the run is no longer that motion.
-const MOST: f64 = 10.0;
-const LOST: f64 = 1e-6;
 
 /// Steps shorter than this share of the run would never end, and are asked whether they get anywhere; so many in a row are not by chance.
 const CREEPING: f64 = 1e-7;
@@ -61,18 +42,6 @@ enum Refusal {
     Undecided(Box<Trouble>),
     /// It is good, with this error, but leaves the branches of its start.
     Leaves(Leaving, f64),
-}
-
-/// What rounding of a state makes of velocities in a unit of time.
-#[derive(Default)]
-struct Noise {
-    /// In the error norm.
-    own: f64,
-    /// The largest of it in any component, over what that is allowed at rest; and which one.
-    most: f64,
-    worst: usize,
-    /// The part of it, in the error norm, that the estimate of an error need not show.
-    hidden: f64,
 }
 
 struct Driver<'p> {
@@ -100,11 +69,10 @@ struct Driver<'p> {
     /// Whether the step in hand is granted it, and its tolerance then.
     granted: bool,
     raised: Tolerance,
-    /// When it was measured, if steps are not of one size.
-    measured: Option<usize>,
     /// Whether a method feels all of it: an implicit one none of that of stiff forces.
     explicit: bool,
-    /// The longest step since.
+    /// When it was measured, if steps are not of one size; and the longest step since.
+    measured: Option<usize>,
     longest: f64,
 }
 
@@ -170,8 +138,8 @@ impl<'p> Driver<'p> {
             noise: Noise::default(),
             granted: false,
             raised: settings.tolerance.clone(),
-            measured: varies.then_some(0),
             explicit,
+            measured: varies.then_some(0),
             longest: 0.0,
         }
     }
@@ -237,13 +205,9 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
-        // Steps may be so short that none is refused for the rounding in it. Where they get shorter there may be more of what errors do not
-        // show, being the same at all stages of a step.
+        // Steps may be so short that none is refused for the rounding in it.
         self.measure(SELDOM);
-        self.longest = self.longest.max(h.abs());
-        if h.abs() < SHRUNK * self.longest {
-            self.uncover();
-        }
+        self.uncover(h);
         (self.passage.plans, self.passage.astray) = (0, false);
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
@@ -313,28 +277,6 @@ impl Driver<'_> {
         Ok((next, error))
     }
 
-    /// Takes the tolerance of a step of size `h`: that of the run, or what a position nearby or rounding allow.
-    fn grant(&mut self, h: f64) {
-        let start = Sample::of(self.equations.course.now.t, self.scheme.start());
-        let (tolerance, run) = (&mut self.tolerance, &self.settings.tolerance);
-        let changed = self.passage.ease(tolerance, run, start.v);
-        let before = std::mem::replace(&mut self.granted, self.noise.own * h.abs() > 1.0);
-        if !self.granted {
-            if changed || before {
-                self.scheme.tolerate(tolerance);
-            }
-            return;
-        }
-        // So many times its tolerance for each component, but no more beside it than the largest rounding in any.
-        let [own, most] = [self.noise.own, self.noise.most].map(|noise| noise * h.abs());
-        self.raised.clone_from(tolerance);
-        for (floor, y) in self.raised.floors.iter_mut().zip(self.scheme.start()) {
-            let more = (own * (*floor + y.abs()) - y.abs()).min(most * *floor);
-            *floor = floor.max(more);
-        }
-        self.scheme.tolerate(&self.raised);
-    }
-
     /// Makes a step up to its projected end. Returns its error as a part of the tolerance.
     fn make(&mut self, trial: Trial) -> Result<f64, Refusal> {
         let error = self.scheme.attempt(&mut self.equations, trial);
@@ -343,132 +285,6 @@ impl Driver<'_> {
         let error = self.scheme.close(&mut self.equations, trial);
         let late = small(error.map_err(Refusal::End)?)?;
         Ok(early.max(late))
-    }
-
-    /// Refuses a step whose `error`, in units of the tolerance, is rounding and too large a share of the motion.
-    fn weigh(&mut self, error: f64, h: f64) -> Result<(), Refusal> {
-        let all = |driver: &Self| error.max(driver.noise.hidden * h.abs());
-        let lost = |driver: &Self| all(driver) > MOST && driver.share(all(driver), h) > LOST;
-        if !lost(self) {
-            return Ok(());
-        }
-        // What it is here, and not some steps ago.
-        self.measure(0);
-        if !lost(self) {
-            return Ok(());
-        }
-        if error > self.noise.own * h.abs() {
-            return Err(Refusal::Inaccurate(error));
-        }
-        let share = self.share(all(self), h);
-        let coordinate = self.equations.problem.coordinate(self.noise.worst);
-        let error = Error::Rounding { coordinate, share };
-        let here = Sample::of(self.equations.course.now.t, self.scheme.start());
-        Err(Refusal::Undecided(Box::new(Trouble::new(here, error))))
-    }
-
-    /// Which share of the motion an error is, in units of the tolerance, of which a step of size `h` is granted the rounding: of the motion
-    /// of each coordinate, but for those of one kind, which have no size of their own; of these of the fastest.
-    fn share(&self, error: f64, h: f64) -> f64 {
-        let run = &self.settings.tolerance;
-        if !self.equations.problem.is_even() {
-            return run.relative * error;
-        }
-        let y = self.scheme.start();
-        let velocities = y.iter().zip(&run.floors).skip(y.len() / 2);
-        let fastest = velocities.fold(1.0_f64, |most, (v, floor)| most.max(v.abs() / floor));
-        run.relative * error.min(self.noise.most * h.abs() / fastest)
-    }
-
-    /// Measures the rounding of accelerations, once in `seldom` attempts: what an error of ε in the time makes of them, and one of ε in all
-    /// coordinates and velocities. That shows the rounding of whatever they are computed by, too.
-    fn measure(&mut self, seldom: usize) {
-        let Equations { course, .. } = &self.equations;
-        let (s, attempts) = (course.now.s, course.attempts);
-        if self.measured.is_none_or(|last| attempts < last + seldom) {
-            return;
-        }
-        self.measured = Some(attempts);
-        self.longest = course.h.abs();
-        let Ok([all, hidden]) = self.rounding(s) else {
-            return;
-        };
-        let tolerance = &self.settings.tolerance;
-        let pairs = all.iter().zip(&tolerance.floors[all.len()..]);
-        let shares: Vec<f64> = pairs.map(|(x, floor)| x / floor).collect();
-        let worst = place_of_largest(&shares);
-        let most = shares[worst] / tolerance.relative;
-        let noise = Noise {
-            own: self.norm(&all),
-            most,
-            hidden: self.norm(&hidden),
-            worst,
-        };
-        if noise.own.is_finite() && most.is_finite() {
-            self.noise = noise;
-        }
-    }
-
-    /// Measures it where part of it does not show in errors.
-    fn uncover(&mut self) {
-        self.longest = self.equations.course.h.abs();
-        let hidden = self.hidden(self.equations.course.now.s);
-        if hidden.is_ok_and(|hidden| hidden.iter().any(|x| *x > 0.0)) {
-            self.measure(0);
-        }
-    }
-
-    /// Errors of velocities in the error norm, in units of the tolerance.
-    fn norm(&self, errors: &[f64]) -> f64 {
-        let (q, v) = self.scheme.start().split_at(errors.len());
-        let still = q.iter().map(|q| (0.0, *q, *q));
-        let moved = errors.iter().zip(v).map(|(x, v)| (*x, *v, *v));
-        error_norm(still.chain(moved), &self.settings.tolerance)
-    }
-
-    /// What rounding makes of the estimate of a step's error, in a unit of time; and which part of it does not show there.
-    fn rounding(&mut self, s: f64) -> Result<[Vec<f64>; 2], Cause> {
-        let hidden = self.hidden(s)?;
-        let mut rounding = hidden.clone();
-        if !self.explicit {
-            return Ok([rounding, hidden]);
-        }
-        let n = hidden.len();
-        let (mut now, mut there) = (vec![0.0; n], vec![0.0; n]);
-        (self.equations).acceleration(s, self.scheme.start(), &mut now)?;
-        let of_time = self.rounding_of_time(s)?;
-        let mut most = vec![0.0_f64; n];
-        for moved in beside(self.scheme.start()) {
-            self.equations.acceleration(s, &moved, &mut there)?;
-            let pairs = most.iter_mut().zip(there.iter().zip(&now));
-            pairs.for_each(|(most, (there, now))| *most = most.max((there - now).abs()));
-        }
-        let all = rounding.iter_mut().zip(of_time.iter().zip(most));
-        all.for_each(|(all, (of_time, most))| *all += STAGES * of_time + SAMPLED * most);
-        Ok([rounding, hidden])
-    }
-
-    /// The part of it that stays the same beside a state.
-    fn hidden(&mut self, s: f64) -> Result<Vec<f64>, Cause> {
-        let y = self.scheme.start();
-        let mut now = vec![0.0; y.len() / 2];
-        self.equations.acceleration(s, y, &mut now)?;
-        let blur = self.equations.problem.blur();
-        Ok(now.into_iter().map(|x| blur * x.abs()).collect())
-    }
-
-    /// What the rounding of the time makes of accelerations: late in a run from a late start all that depends on time is known no better.
-    fn rounding_of_time(&mut self, s: f64) -> Result<Vec<f64>, Cause> {
-        let y = self.scheme.start();
-        let n = y.len() / 2;
-        let (mut now, mut later) = (vec![0.0; n], vec![0.0; n]);
-        let ulp = f64::EPSILON * self.equations.at(s, y).t.abs();
-        self.equations.acceleration(s, y, &mut now)?;
-        (self.equations).acceleration(s + CLEARLY * ulp, y, &mut later)?;
-        let pairs = now.iter().zip(&later);
-        Ok(pairs
-            .map(|(now, later)| (later - now).abs() / CLEARLY)
-            .collect())
     }
 
     /// Projects the new state. Refuses if that fails or the change says that the step was a bad one.

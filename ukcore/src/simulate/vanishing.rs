@@ -22,6 +22,9 @@ use crate::mechanism::Prepared;
 use crate::scan::dot;
 use crate::solver::RANK_CEILING;
 use crate::zero::locate;
+use matrix::Matrix;
+
+mod matrix;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
 /// this many times the time since they were looked at last.
@@ -139,62 +142,6 @@ pub(super) struct RowWatch {
     turns: f64,
     /// When to look again.
     pub(super) due: f64,
-}
-
-/// A at a time; there is none at NaN.
-struct Matrix {
-    t: f64,
-    entries: Vec<f64>,
-    /// Squares of the lengths of its rows.
-    squares: Vec<f64>,
-}
-
-impl Default for Matrix {
-    fn default() -> Self {
-        Matrix {
-            t: f64::NAN,
-            entries: Vec::new(),
-            squares: Vec::new(),
-        }
-    }
-}
-
-impl Matrix {
-    /// Takes A at a state, measured. Returns whether it was not known there.
-    fn take(&mut self, mech: &Prepared, at: Sample<'_>, measure: Option<&Measure>) -> bool {
-        let unknown = self.t != at.t;
-        if unknown {
-            self.t = at.t;
-            self.entries.resize(at.q.len() * mech.spec().m(), 0.0);
-            mech.jacobian(at.t, at.q, at.v, &mut self.entries);
-            if let Some(measure) = measure {
-                measure.weigh(&mut self.entries);
-            }
-        }
-        unknown
-    }
-
-    /// Takes the lengths of its rows.
-    fn measure(&mut self, leaves: &Leaves) {
-        leaves.squares(&self.entries, &mut self.squares);
-    }
-
-    /// A at a state, measured, with the lengths of its rows.
-    fn at(mech: &Prepared, at: Sample<'_>, measure: Option<&Measure>, leaves: &Leaves) -> Self {
-        let mut matrix = Matrix::default();
-        matrix.take(mech, at, measure);
-        matrix.measure(leaves);
-        matrix
-    }
-
-    fn length(&self, c: usize) -> f64 {
-        self.squares[c].sqrt()
-    }
-
-    fn row(&self, c: usize) -> impl Iterator<Item = f64> {
-        let entries = self.entries.iter().skip(c);
-        entries.step_by(self.squares.len()).copied()
-    }
 }
 
 impl RowWatch {

@@ -1,0 +1,185 @@
+//! What rounding makes of steps: how much of it they are granted, and where the motion is lost in it.
+
+use super::{Driver, Refusal};
+use crate::error::Error;
+use crate::integrate::sample::Sample;
+use crate::integrate::scheme::Equations;
+use crate::integrate::sums::error_norm;
+use crate::integrate::trouble::{Cause, Trouble};
+use crate::rounding::beside;
+use crate::scan::place_of_largest;
+
+/// Attempts from one measurement of rounding to the next, and where steps are nearly lost in the rounding of the time: it takes as many
+/// evaluations as one of them.
+pub(super) const SELDOM: usize = 1000;
+pub(super) const OFTEN: usize = 5;
+
+/// Steps have got shorter by this share since it was measured where there may be more of it.
+const SHRUNK: f64 = 1.0 / 32.0;
+
+/// Roundings of the time over which a difference is nothing but that of accelerations.
+pub(super) const CLEARLY: f64 = 1024.0;
+
+/// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
+const STAGES: f64 = 1.5;
+/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
+const SAMPLED: f64 = 2.5;
+
+/// Rounding may make so many times the tolerance of a step, or this share of the motion, before the run is no longer that motion.
+const MOST: f64 = 10.0;
+pub(super) const LOST: f64 = 1e-6;
+
+/// What rounding of a state makes of velocities in a unit of time.
+#[derive(Default)]
+pub(super) struct Noise {
+    /// In the error norm.
+    pub(super) own: f64,
+    /// The largest of it in any component, over what that is allowed at rest; and which one.
+    most: f64,
+    worst: usize,
+    /// The part of it, in the error norm, that the estimate of an error need not show.
+    hidden: f64,
+}
+
+impl Driver<'_> {
+    /// Takes the tolerance of a step of size `h`: that of the run, or what a position nearby or rounding allow.
+    pub(super) fn grant(&mut self, h: f64) {
+        let start = Sample::of(self.equations.course.now.t, self.scheme.start());
+        let (tolerance, run) = (&mut self.tolerance, &self.settings.tolerance);
+        let changed = self.passage.ease(tolerance, run, start.v);
+        let before = std::mem::replace(&mut self.granted, self.noise.own * h.abs() > 1.0);
+        if !self.granted {
+            if changed || before {
+                self.scheme.tolerate(tolerance);
+            }
+            return;
+        }
+        // So many times its tolerance for each component, but no more beside it than the largest rounding in any.
+        let [own, most] = [self.noise.own, self.noise.most].map(|noise| noise * h.abs());
+        self.raised.clone_from(tolerance);
+        for (floor, y) in self.raised.floors.iter_mut().zip(self.scheme.start()) {
+            let more = (own * (*floor + y.abs()) - y.abs()).min(most * *floor);
+            *floor = floor.max(more);
+        }
+        self.scheme.tolerate(&self.raised);
+    }
+
+    /// Refuses a step whose `error`, in units of the tolerance, is rounding and too large a share of the motion.
+    pub(super) fn weigh(&mut self, error: f64, h: f64) -> Result<(), Refusal> {
+        if self.lost(error, h).is_none() {
+            return Ok(());
+        }
+        // What it is here, and not some steps ago.
+        self.measure(0);
+        let Some(share) = self.lost(error, h) else {
+            return Ok(());
+        };
+        if error > self.noise.own * h.abs() {
+            return Err(Refusal::Inaccurate(error));
+        }
+        let coordinate = self.equations.problem.coordinate(self.noise.worst);
+        let error = Error::Rounding { coordinate, share };
+        let here = Sample::of(self.equations.course.now.t, self.scheme.start());
+        Err(Refusal::Undecided(Box::new(Trouble::new(here, error))))
+    }
+
+    /// Which share of the motion is lost in a step of size `h` with this error, in units of the tolerance, if it is too large.
+    fn lost(&self, error: f64, h: f64) -> Option<f64> {
+        let all = error.max(self.noise.hidden * h.abs());
+        let share = || self.share(all, h);
+        (all > MOST).then(share).filter(|share| *share > LOST)
+    }
+
+    /// Which share of the motion an error is, in units of the tolerance, of which a step of size `h` is granted the rounding: of the motion
+    /// of each coordinate, but for those of one kind, which have no size of their own; of these of the fastest.
+    fn share(&self, error: f64, h: f64) -> f64 {
+        let run = &self.settings.tolerance;
+        if !self.equations.problem.is_even() {
+            return run.relative * error;
+        }
+        let y = self.scheme.start();
+        let velocities = y.iter().zip(&run.floors).skip(y.len() / 2);
+        let fastest = velocities.fold(1.0_f64, |most, (v, floor)| most.max(v.abs() / floor));
+        run.relative * error.min(self.noise.most * h.abs() / fastest)
+    }
+
+    /// Measures the rounding of accelerations, once in `seldom` attempts: what an error of ε in the time makes of them, and one of ε in all
+    /// coordinates and velocities. That shows the rounding of whatever they are computed by, too.
+    pub(super) fn measure(&mut self, seldom: usize) {
+        let Equations { course, .. } = &self.equations;
+        let (s, attempts) = (course.now.s, course.attempts);
+        if self.measured.is_none_or(|last| attempts < last + seldom) {
+            return;
+        }
+        self.measured = Some(attempts);
+        self.longest = course.h.abs();
+        let Ok([all, hidden]) = self.rounding(s) else {
+            return;
+        };
+        let tolerance = &self.settings.tolerance;
+        let pairs = all.iter().zip(&tolerance.floors[all.len()..]);
+        let shares: Vec<f64> = pairs.map(|(x, floor)| x / floor).collect();
+        let worst = place_of_largest(&shares);
+        let most = shares[worst] / tolerance.relative;
+        let noise = Noise {
+            own: self.norm(&all),
+            most,
+            hidden: self.norm(&hidden),
+            worst,
+        };
+        if noise.own.is_finite() && most.is_finite() {
+            self.noise = noise;
+        }
+    }
+
+    /// Measures it after a step of size `h` where steps have got shorter, and accelerations have part of it now that does not show in errors.
+    pub(super) fn uncover(&mut self, h: f64) {
+        self.longest = self.longest.max(h.abs());
+        if h.abs() >= SHRUNK * self.longest {
+            return;
+        }
+        self.longest = h.abs();
+        if self.equations.problem.blur() > 0.0 {
+            self.measure(0);
+        }
+    }
+
+    /// Errors of velocities in the error norm, in units of the tolerance.
+    fn norm(&self, errors: &[f64]) -> f64 {
+        let (q, v) = self.scheme.start().split_at(errors.len());
+        let still = q.iter().map(|q| (0.0, *q, *q));
+        let moved = errors.iter().zip(v).map(|(x, v)| (*x, *v, *v));
+        error_norm(still.chain(moved), &self.settings.tolerance)
+    }
+
+    /// What rounding makes of the estimate of a step's error, in a unit of time; and which part of it does not show there, being the same
+    /// beside a state.
+    fn rounding(&mut self, s: f64) -> Result<[Vec<f64>; 2], Cause> {
+        let y = self.scheme.start();
+        let n = y.len() / 2;
+        let (mut now, mut there) = (vec![0.0; n], vec![0.0; n]);
+        self.equations.acceleration(s, y, &mut now)?;
+        let blur = self.equations.problem.blur();
+        let hidden: Vec<f64> = now.iter().map(|x| blur * x.abs()).collect();
+        let mut rounding = hidden.clone();
+        if !self.explicit {
+            return Ok([rounding, hidden]);
+        }
+        // Late in a run from a late start all that depends on time is known no better.
+        let ulp = f64::EPSILON * self.equations.at(s, y).t.abs();
+        (self.equations).acceleration(s + CLEARLY * ulp, y, &mut there)?;
+        let pairs = now.iter().zip(&there);
+        let of_time: Vec<f64> = pairs
+            .map(|(now, later)| (later - now).abs() / CLEARLY)
+            .collect();
+        let mut most = vec![0.0_f64; n];
+        for moved in beside(y) {
+            self.equations.acceleration(s, &moved, &mut there)?;
+            let pairs = most.iter_mut().zip(there.iter().zip(&now));
+            pairs.for_each(|(most, (there, now))| *most = most.max((there - now).abs()));
+        }
+        let all = rounding.iter_mut().zip(of_time.iter().zip(most));
+        all.for_each(|(all, (of_time, most))| *all += STAGES * of_time + SAMPLED * most);
+        Ok([rounding, hidden])
+    }
+}
