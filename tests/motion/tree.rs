@@ -576,3 +576,96 @@ fn momentum_of_floating_bodies_stays() {
         assert_all_close("momentum and its moment", out, &all[0], 1e-8);
     }
 }
+
+ukcore::multibody! {
+    /// A point mass at the end of a light rod that hangs on a cross.
+    Bob {
+        params { m = 1.2, l = 0.8, g = 9.81 }
+        gravity { [0, 0, -g] }
+        bodies { spatial rod { mass: 0, inertia: [0, 0, 0] } spatial bob { mass: m, inertia: [0, 0, 0] } }
+        tree {
+            cross: universal(ground.at([0, 0, 0]), rod.at([0, 0, 0]), [0, 1, 0], [0, 0, 1])
+            end: weld(rod.at([l, 0, 0]), bob.at([0, 0, 0]))
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A wheel in two rings without mass.
+    Gimbals {
+        params { j[3] = [0.2, 0.3, 0.45], m = 1.5 }
+        bodies {
+            spatial outer { mass: 0, inertia: [0, 0, 0] }
+            spatial inner { mass: 0.0 [kg], inertia: [0, 0.0, 0] }
+            spatial wheel { mass: m, inertia: j }
+        }
+        tree {
+            heading: hinge(ground.at([0, 0, 0]), outer.at([0, 0, 0]), [0, 0, 1])
+            pitch: hinge(outer.at([0, 0, 0]), inner.at([0, 0, 0]), [0, 1, 0])
+            roll: hinge(inner.at([0, 0, 0]), wheel.at([0, 0, 0]), [1, 0, 0])
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// The same wheel by its rates in its own axes.
+    Rates {
+        params { j[3] = [0.2, 0.3, 0.45] }
+        coords { a, b, c }
+        let p = dot(c) - dot(a) * sin(b);
+        let q = dot(b) * cos(c) + dot(a) * cos(b) * sin(c);
+        let r = dot(a) * cos(b) * cos(c) - dot(b) * sin(c);
+        kinetic { 0.5 * (j[0] * sq(p) + j[1] * sq(q) + j[2] * sq(r)) }
+    }
+}
+
+/// Links without mass join what has some: the angles of the joints between them move that.
+#[test]
+fn links_of_the_tree_need_no_mass() {
+    fn accelerations<M: Mechanism>(state: &State) -> Vec<f64> {
+        let mut found = vec![0.0; state.q.len()];
+        Solver::new(&M::default(), SolverOptions::default())
+            .acceleration(0.0, &state.q, &state.v, &mut found)
+            .expect("a regular mass matrix");
+        found
+    }
+    let mut random = Random::new(12);
+    let bob = Bob::default();
+    for _ in 0..20 {
+        let state = State {
+            t: 0.0,
+            q: vec![3.0 * random.signed(), 1.2 * random.signed()],
+            v: random.vector(2),
+        };
+        let [a, b] = [state.q[0], state.q[1]];
+        let [da, db] = [state.v[0], state.v[1]];
+        // Lagrange's equations: T = m l²/2 (ḃ² + ȧ² cos² b), V = −m g l sin a cos b.
+        let expected = [
+            2.0 * da * db * b.tan() + bob.g / bob.l * a.cos() / b.cos(),
+            -da * da * b.sin() * b.cos() - bob.g / bob.l * a.sin() * b.sin(),
+        ];
+        assert_all_close("a bob", &accelerations::<Bob>(&state), &expected, 1e-11);
+        let state = State {
+            t: 0.0,
+            q: random.vector(3),
+            v: random.vector(3),
+        };
+        let expected = accelerations::<Rates>(&state);
+        assert_all_close(
+            "gimbals",
+            &accelerations::<Gimbals>(&state),
+            &expected,
+            1e-11,
+        );
+    }
+    let lost = State {
+        t: 0.0,
+        q: vec![0.1, std::f64::consts::FRAC_PI_2, 0.2],
+        v: vec![0.0, 0.1, 0.0],
+    };
+    let told = Solver::new(&Gimbals::default(), SolverOptions::default())
+        .acceleration(0.0, &lost.q, &lost.v, &mut [0.0; 3])
+        .expect_err("gimbal lock")
+        .to_string();
+    assert!(told.contains("`heading.angle`, `roll.angle`"), "{told}");
+}

@@ -157,9 +157,10 @@ impl Simulation {
     /// By default each coordinate has its own, the relative one times what is small for it. That is the size of the start (the largest
     /// coordinate or velocity there or, if that is more, the largest length in a holonomic constraint), but at most what takes the
     /// mechanism into another shape: a turn by a radian, or the length of the shortest rod where nothing turns. The constraints tell what
-    /// of a length a radian is worth. So a mechanism takes the same steps in micrometres, metres and kilometres; where there is neither an
-    /// angle nor a curved constraint, the size is at most 1. Velocities have the same numbers as their coordinates, by the unit of time, or
-    /// less where the motion is slower at its start and by its acceleration there.
+    /// of a length a radian is worth. So a mechanism with lengths in its constraints takes the same steps in micrometres, metres and
+    /// kilometres. Where there is neither an angle nor a curved constraint, nothing tells what is large, and the size is at most 1: of
+    /// coordinates of 1e9 m that move by metres those metres count. Velocities have the same numbers as their coordinates, by the unit of
+    /// time, or less where the motion is slower at its start and by its acceleration there.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
         self.absolute = Some(tolerance);
@@ -219,7 +220,8 @@ impl Simulation {
         self
     }
 
-    /// Watches an event. Costs the interpolant of each step, as [`dense`](Simulation::dense) does.
+    /// Watches an event. Costs the interpolant of each step, as [`dense`](Simulation::dense) does. Events may share a name, which then
+    /// stands for all of them.
     #[must_use]
     pub fn event(mut self, event: Event) -> Self {
         self.events.push(event);

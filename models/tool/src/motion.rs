@@ -154,7 +154,13 @@ pub(crate) fn method(text: &str) -> Result<Method, String> {
 pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let range = SMALLEST_TOLERANCE..1.0;
     let number = text.trim().parse().ok().filter(|x| range.contains(x));
-    number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
+    let several = match text.contains(',') {
+        true => "; `sweep` takes several",
+        false => "",
+    };
+    number.ok_or_else(|| {
+        format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed{several}")
+    })
 }
 
 /// Reads a whole number, which may be written as 1e9.

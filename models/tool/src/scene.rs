@@ -132,10 +132,11 @@ impl Start {
     /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and angles
     /// that may be meant in degrees.
     pub(crate) fn noted<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
-        let ready = self.ready(entry)?;
         let given = self.settings.iter();
-        let angles = given.filter_map(|(name, value)| self.angle(entry, name, value));
-        ways::tell(angles.chain(self.other_ways(&ready)));
+        // They may be why it fails.
+        ways::tell(given.filter_map(|(name, value)| self.angle(entry, name, value)));
+        let ready = self.ready(entry)?;
+        ways::tell(self.other_ways(&ready));
         Ok(ready)
     }
 

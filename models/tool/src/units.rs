@@ -242,7 +242,12 @@ fn number(text: &str) -> Result<(f64, &str), String> {
         Some(c) if c.is_ascii_digit() || c == '.' => {
             let (number, rest) = text.split_at(number_length(text));
             let value: Result<f64, _> = number.parse();
-            let value = value.map_err(|_| format!("`{number}` is not a number"))?;
+            let value = value.map_err(|_| match number.contains("..") {
+                true => format!(
+                    "`{number}` is a range, which `sweep` takes; here one number is expected"
+                ),
+                false => format!("`{number}` is not a number"),
+            })?;
             Ok((value, rest))
         }
         Some(c) => Err(format!("a value is expected at `{c}`")),

@@ -101,6 +101,11 @@ fn mistakes_are_named() {
     fails("1/0", "m", "not a finite number");
     fails(".", "m", "not a number");
     fails("1.5.2", "m", "`1.5.2` is not a number");
+    fails(
+        "2..3",
+        "m",
+        "`2..3` is a range, which `sweep` takes; here one number is expected",
+    );
     fails("1 000", "m", "`*`, `/` or `^` is missing before `000`");
     fails("1,000", "m", "`,000` is not understood");
     fails("9.81 m/s2", "m/s^2", "`^` is missing before `2`");

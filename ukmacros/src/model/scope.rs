@@ -286,6 +286,16 @@ impl<'m> Scope<'m> {
             .integer(&range.to, diag)?
             .saturating_add(i64::from(range.inclusive));
         let length = to.saturating_sub(from);
+        // Behind a constant it may well be empty.
+        let literal = |e: &Expr| matches!(e.kind, ExprKind::Int(_));
+        if length < 0 && literal(&range.from) && literal(&range.to) {
+            let loc = range.from.loc.to(range.to.loc);
+            diag.error(
+                loc,
+                "nothing is in this range; it goes upwards, from the smaller number",
+            );
+            return None;
+        }
         if length > MAX_MEMBERS {
             self.too_large(&[&range.from, &range.to], diag);
             return None;

@@ -1,7 +1,7 @@
 //! Entries of sections, each by itself.
 
 use super::expr::{Expr, TWO_SIGNS, location};
-use super::grammar::{blocks, coordinates, declared, docs, expression, key, needed};
+use super::grammar::{blocks, colon, coordinates, declared, docs, equals, expression, key, needed};
 use super::item::{
     Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
     Shape, Start, StartOption,
@@ -15,6 +15,9 @@ use syn::{Token, braced, bracketed, parenthesized};
 pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
+    if input.peek(Token![-]) {
+        return Err(input.error("names have no `-`; `_` joins words"));
+    }
     let _: Token![=] = needed(input, &key.name, || {
         format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name)
     })?;
@@ -58,7 +61,7 @@ pub(super) fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Bo
     };
     while !parts.is_empty() {
         let name: Ident = parts.parse()?;
-        let _: Token![:] = parts.parse()?;
+        colon(&parts, &name)?;
         let value = expression(&parts, diag)?;
         let _: Option<Token![,]> = parts.parse()?;
         let known = ["mass", "inertia", "centre"];
@@ -102,16 +105,13 @@ pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Pa
         braced!(given in input);
         while !given.is_empty() {
             let name: Ident = given.parse()?;
-            if given.peek(Token![=]) {
-                let message = format!("what is given to a part is written `{name}: 1.0`, with `:`");
-                let error = given.error(message);
-                let _: TokenStream = given.parse()?;
-                return Err(error);
-            }
-            let value = match given.parse::<Option<Token![:]>>()? {
-                Some(_) => expression(&given, diag)?,
-                // As in Rust, `{ mass }` is short for `{ mass: mass }`.
-                None => Expr::name(name.clone()),
+            // As in Rust, `{ mass }` is short for `{ mass: mass }`.
+            let value = match given.is_empty() || given.peek(Token![,]) {
+                true => Expr::name(name.clone()),
+                false => {
+                    colon(&given, &name)?;
+                    expression(&given, diag)?
+                }
             };
             let _: Option<Token![,]> = given.parse()?;
             if out.given.iter().any(|(n, _)| *n == name) {
@@ -147,7 +147,7 @@ pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<E
 
 pub(super) fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
     let key = key(input, diag)?;
-    let _: Token![=] = input.parse()?;
+    equals(input, &key.name)?;
     let e: syn::Expr = input.parse()?;
     let value = match e {
         syn::Expr::Closure(closure) => {
@@ -192,7 +192,7 @@ pub(super) fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
     } else {
         (coordinates(input, diag)?, None)
     };
-    let _: Token![:] = input.parse()?;
+    colon(input, &first.name)?;
     let value = expression(input, diag)?;
     Ok(MassEntry {
         key: first,
@@ -229,7 +229,7 @@ pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<E
         let message = "a generalised force belongs to a coordinate; a force at a point of a body goes under `forces`: `force(link.at([0, 0]), [fx, fy])`, or under `nonideal`";
         return Err(syn::Error::new(key.name.span(), message));
     }
-    let _: Token![:] = input.parse()?;
+    colon(input, &key.name)?;
     let (docs, value) = (Vec::new(), expression(input, diag)?);
     Ok(Entry { docs, key, value })
 }
@@ -271,7 +271,7 @@ pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
 pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
     let docs = docs(input, diag)?;
     let key = declared(input, diag)?;
-    let _: Token![=] = input.parse()?;
+    equals(input, &key.name)?;
     let value = expression(input, diag)?;
     Ok(Entry { docs, key, value })
 }

@@ -478,6 +478,10 @@ fn literal(lit: &syn::Lit, diag: &Diagnostics) -> ExprKind {
         }
         syn::Lit::Int(i) => refuse(&suffixed(i.base10_digits(), i.suffix())),
         syn::Lit::Float(f) => refuse(&suffixed(f.base10_digits(), f.suffix())),
+        syn::Lit::Str(text) if text.value().trim().parse::<f64>().is_ok() => refuse(&format!(
+            "a number has no quotes: `{}`",
+            text.value().trim()
+        )),
         _ => refuse("not a number"),
     }
 }

@@ -294,6 +294,24 @@ fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> sy
     })
 }
 
+/// The `:` behind a name that is given something.
+pub(super) fn colon(input: ParseStream<'_>, name: &Ident) -> syn::Result<()> {
+    if input.peek(Token![=]) && !input.peek(Token![==]) {
+        let message =
+            format!("here stands `:`, as in `{name}: 1.0`; `=` is for equations and defaults");
+        return Err(input.error(message));
+    }
+    input.parse().map(|_: Token![:]| ())
+}
+
+/// The `=` behind a name that is declared as a value.
+pub(super) fn equals(input: ParseStream<'_>, name: &Ident) -> syn::Result<()> {
+    if input.peek(Token![:]) {
+        return Err(input.error(format!("here stands `=`: `{name} = …`")));
+    }
+    input.parse().map(|_: Token![=]| ())
+}
+
 /// What has to stand next; where it does not, `message` is told of `name`.
 pub(super) fn needed<T: syn::parse::Parse>(
     input: ParseStream<'_>,

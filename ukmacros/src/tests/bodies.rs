@@ -51,6 +51,11 @@ fn planar_joints_are_equations() {
     );
     check_rows(PLANE, "turn(a, b)", "b.angle - a.angle");
     check_rows(PLANE, "gear(a, b, r, s)", "r * a.angle + s * b.angle");
+    check_rows(
+        PLANE,
+        "gear(a, ground, r, s, b)",
+        "r * (a.angle - b.angle) - s * b.angle",
+    );
     check_rows(PLANE, "rod(p, q, l)", "sq(q - p) - sq(l)");
     check_rows(
         PLANE,
@@ -354,7 +359,9 @@ cases! {
     gravity_of_a_number: "bodies { planar a { mass: 1, inertia: 1 } } gravity { «-9.81» }" => "expected a vector of 2 or 3, found a number";
     mass_that_changes: "bodies { planar a { mass: 1 + «t», inertia: 1 } }" => "what a body consists of does not change";
     negative_inertia: "params { j = -1.0 } bodies { planar a { mass: 1, inertia: «j» } }" => "the inertia of a body must not be negative";
-    massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive";
+    massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive; it is 0 where the inertia is `[0, 0, 0]`, too";
+    massless_link_in_space: "bodies { spatial a { mass: «0», inertia: [0, 0, 0] } } tree { j: ball(ground.at([0, 0, 0]), a.at([1, 0, 0])) }" => "the mass of a spatial body must be positive";
+    turning_joint_in_space: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «turn»(ground, a) }" => "`turn` joins planar bodies: `turn(a, b)`; these are in space, where it is `drive`";
     no_inertia_in_space: "bodies { spatial «a» { mass: 1 } }" => "spatial body `a` has no inertia";
     inertia_of_one_number: "bodies { spatial a { mass: 1, inertia: «1» } }" => "the inertia of a spatial body is `[xx, yy, zz]`";
     inertia_of_a_thin_rod: "bodies { spatial a { mass: 1, inertia: «[0, 1, 1]» } }" => "must be positive definite; about its own axis a thin rod has a small moment";
@@ -370,7 +377,7 @@ cases! {
     massless_body: "bodies { planar «a» { inertia: 1 } }" => "coordinates `a.x`, `a.y` have neither mass nor constraint";
     nothing_in_a_body: "bodies { planar «a» { } }" => "coordinates `a.x`, `a.y`, `a.angle` have neither mass nor constraint";
     semicolon_in_a_body: "bodies { planar a { mass: 1«;» inertia: 1 } }" => "expected identifier";
-    equals_in_a_body: "bodies { planar a { mass «=» 1, inertia: 1 } }" => "expected `:`";
+    equals_in_a_body: "bodies { planar a { mass «=» 1, inertia: 1 } }" => "here stands `:`, as in `mass: 1.0`";
     unknown_part_of_a_body: "bodies { planar a { mass: 1, «colour»: 1, inertia: 1 } }" => "a body has no `colour`; it has `mass`, `inertia` and `centre`";
     nothing_of_a_body: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: a.«colour» }" => "body `a` has no `colour`; it has `x`, `y`, `angle`";
     planar_and_spatial_members: "bodies { for i in 0..1 { planar a[i] { mass: 1, inertia: 1 } } for i in 1..2 { spatial «a»[i] { mass: 1, inertia: [1, 1, 1] } } }" => "`a` is declared planar and spatial; rename one";
@@ -379,6 +386,6 @@ cases! {
     torque_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } forces { torque(a, «[1, 2]») }" => "is a number, found a vector of 2";
     torque_on_a_number: "bodies { planar a { mass: 1, inertia: 1 } } forces { torque(«a.angle», 1) }" => "is a body, found a number";
     radius_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: gear(ground, a, 1, «[1, 2]») }" => "is a number, found a vector of 2";
-    rolling_in_the_plane: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rolls»(a.at([0, 0]), [0, 1], 1) }" => "`rolls` joins spatial bodies: `rolls(q, u, r)`; these are in the plane";
+    rolling_in_the_plane: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rolls»(a.at([0, 0]), [0, 1], 1) }" => "`rolls` joins spatial bodies: `rolls(q, u, r)`; these are in the plane, where it is `wheel`";
     unknown_joint: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pinn»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `pinn`; did you mean `pin`?";
 }

@@ -242,6 +242,13 @@ cases! {
     product_without_sign: "coords { x } mass { x: 1.0 } force { x: «2x» }" => "a product is written with its sign: `2 * x`";
     float_suffix: "coords { x } mass { x: «1.0f32» }" => "only `f64` numbers here";
     text: "coords { x } mass { x: «\"heavy\"» }" => "not a number";
+    quoted_number: "coords { x } mass { x: «\" 1.5 \"» }" => "a number has no quotes: `1.5`";
+    equals_in_a_mass: "coords { x } mass { x «=» 1 }" => "here stands `:`, as in `x: 1.0`";
+    equals_in_a_force: "coords { x } mass { x: 1 } force { x «=» 1 }" => "here stands `:`, as in `x: 1.0`";
+    colon_in_an_output: "coords { x } mass { x: 1 } output { o«:» x }" => "here stands `=`: `o = …`";
+    hyphen_in_a_parameter: "params { my«-»l = 1 } coords { x } mass { x: 1 }" => "names have no `-`; `_` joins words";
+    fractional_powi: "coords { x } mass { x: 1 } potential { x.powi(«2.5») }" => "write `powf(2.5)`";
+    downward_range: "coords { x[3] } mass { for i in «3..0» { x[i]: 1 } }" => "it goes upwards, from the smaller number";
     closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
     cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";

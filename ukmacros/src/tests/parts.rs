@@ -289,7 +289,7 @@ cases! {
     given_that_moves: "gravity { [0, -1] } parts { leg: Leg { l: «t» } }" => "a parameter of a part does not change with the motion";
     given_of_a_shape: "gravity { [0, -1] } parts { leg: Leg { m: «[1, 2, 3]» } }" => "expected a vector of 2, found a vector of 3";
     given_unknown: "gravity { [0, -1] } parts { leg: Leg { m: «mass» } }" => "unknown name `mass`";
-    given_by_an_equals_sign: "gravity { [0, -1] } parts { leg: Leg { k «=» 3, l = 1 } }" => "what is given to a part is written `k: 1.0`, with `:`";
+    given_by_an_equals_sign: "gravity { [0, -1] } parts { leg: Leg { k «=» 3, l = 1 } }" => "here stands `:`, as in `k: 1.0`";
     given_as_a_vector: "gravity { [0, -1] } parts { leg[3]: Leg { l: «[40, 50] [mm]» } }" => "`l` is a number, found a vector of 2; a value for each part is given in a loop";
     no_type: "parts { «leg» }" => "a part needs the type that it is: `leg: Leg`";
     in_itself: "parts { leg: «T» }" => "`T` cannot be a part of itself";

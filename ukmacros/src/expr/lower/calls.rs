@@ -9,7 +9,7 @@ use crate::expr::diff::Derivative;
 use crate::expr::functions::Func;
 use crate::expr::graph::Id;
 use crate::model::{Reported, Scope, arity};
-use crate::parse::Expr;
+use crate::parse::{Expr, ExprKind};
 use proc_macro2::Ident;
 
 /// Largest exponent of `powi`.
@@ -49,6 +49,12 @@ impl<'m> Lowering<'m> {
                     return self.arity(name, 2, args.len());
                 };
                 let base = self.number(base, env);
+                if let ExprKind::Float(number) = exponent.kind {
+                    let message = format!(
+                        "`powi` takes a whole exponent, such as `2`; write `powf({number:?})`"
+                    );
+                    return self.error(exponent.loc, message);
+                }
                 let (Some(base), Some(n)) = (base, env.scope.integer(exponent, self.diag)) else {
                     return Value::Error;
                 };

@@ -43,7 +43,13 @@ impl<'m> Lowering<'m> {
             };
             let loc = body.key.loc;
             let spatial = frame.dimension() == Some(3);
-            let mass = self.not_negative(body.mass.as_ref(), "mass", spatial, &variables);
+            let freely = self.turns_freely(position);
+            // A link that only joins others.
+            let empty = !freely
+                && [&body.mass, &body.inertia]
+                    .into_iter()
+                    .all(|e| e.as_ref().is_some_and(zeros));
+            let mass = self.not_negative(body.mass.as_ref(), "mass", spatial && !empty, &variables);
             if let Some(energy) = self.hung_energy(&frame, mass) {
                 out.changing = out.changing.or(Some(loc));
                 out.turning.extend(energy);
@@ -54,9 +60,11 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let freely = self.turns_freely(position);
-                let inertia = self.turning(&body, &variables, &frame, freely, &mut out.turning);
-                let given = inertia.map(|rows| [vec![mass], rows].concat());
+                let inertia =
+                    self.turning(&body, &variables, &frame, (mass, freely), &mut out.turning);
+                let given = inertia
+                    .filter(|_| !empty)
+                    .map(|rows| [vec![mass], rows].concat());
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
                 if let Some(first) = own {
@@ -213,7 +221,10 @@ impl<'m> Lowering<'m> {
         } else if spatial && number == 0.0 {
             self.error(
                 e.loc,
-                format!("the {what} of a spatial body must be positive"),
+                format!(
+                    "the {what} of a spatial body must be positive; it is 0 where the inertia is `[0, 0, 0]`, too, and the body hangs on a \
+                     joint under `tree` that has angles for coordinates"
+                ),
             );
         }
         numbers[0]
@@ -226,10 +237,11 @@ impl<'m> Lowering<'m> {
         model.own[position].is_some() || model.hung[position].is_some_and(freely)
     }
 
-    /// Whether these are the moments of a thin rod, which has none about one of its axes: hung where it cannot turn about that alone.
+    /// Whether these are the moments of a thin rod, which has none about one of its axes, or of a point: hung where they cannot turn
+    /// about that alone.
     fn thin(&self, moments: &Value) -> bool {
         let zeros = moments.entries().iter().filter(|j| self.graph.is_zero(**j));
-        moments.shape() == [3] && zeros.count() == 1
+        moments.shape() == [3] && matches!(zeros.count(), 1 | 3)
     }
 
     /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
@@ -238,7 +250,7 @@ impl<'m> Lowering<'m> {
         body: &Body,
         variables: &[Variable],
         frame: &Frame,
-        freely: bool,
+        (mass, freely): (Id, bool),
         out: &mut Vec<(f64, Id)>,
     ) -> Option<Vec<Id>> {
         let e = body.inertia.as_ref()?;
@@ -286,7 +298,7 @@ impl<'m> Lowering<'m> {
                 let reduced = self.graph.sum(&terms);
                 match i == k {
                     true => d[k] = reduced,
-                    // Of a thin rod there is nothing in this column.
+                    // Of a thin rod or a point there is nothing in this column.
                     false if self.graph.is_zero(d[k]) => l[i][k] = zero,
                     false => l[i][k] = self.graph.div(reduced, d[k]),
                 }
@@ -303,9 +315,9 @@ impl<'m> Lowering<'m> {
         }
         let [xy, xz, yz] = upper;
         let [[xx, ..], [yx, yy, _], [zx, zy, zz]] = lower;
-        // Of a thin rod a run looks at the moments that it has.
+        // Of a thin rod a run looks at the moments that it has, of a point at its mass.
         let there = |j: &Id| !self.graph.is_zero(*j);
-        let one = [xx, yy, zz].into_iter().find(there).unwrap_or(zero);
+        let one = [xx, yy, zz].into_iter().find(there).unwrap_or(mass);
         let [xx, yy, zz] = [xx, yy, zz].map(|j| if there(&j) { j } else { one });
         Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
@@ -331,6 +343,18 @@ impl<'m> Lowering<'m> {
             phi,
             loc,
         }
+    }
+}
+
+/// Whether this is a zero as it is written, or a list of them.
+fn zeros(e: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Int(0) => true,
+        ExprKind::Float(x) => *x == 0.0,
+        ExprKind::Quantity(..) | ExprKind::Group(_) | ExprKind::Vector(_) => {
+            e.parts().into_iter().all(zeros)
+        }
+        _ => false,
     }
 }
 

@@ -92,7 +92,8 @@ parts! {
     "slider" Plane (p: Point, q: Point, d: Direction, angle: Number["rad"] = "0")
         Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"], "normal angle");
     "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"], "");
-    "gear" Plane (a: Body, b: Body, r: Number, s: Number) Rows(&["r * a.angle + s * b.angle"], "");
+    "gear" Plane (a: Body, b: Body, r: Number, s: Number, carrier: Body = "ground")
+        Rows(&["r * (a.angle - carrier.angle) + s * (b.angle - carrier.angle)"], "");
     "rack" Plane (p: Point, q: Point, d: Direction, r: Number["m"])
         Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"], "");
     "wheel" Plane (p: Point, q: Point, d: Direction, r: Number["m"]) Rows(&[
@@ -144,6 +145,20 @@ parts! {
     "torque" Both (b: Body, m: Moment["N m"]) Push("b.omega", "m");
     "torque" Both (a: Body, b: Body, m: Moment["N m"]) Push("b.omega - a.omega", "m");
 }
+
+/// Parts of one home, and what does the same in the other.
+const COUNTERPARTS: &[(&str, &str)] = &[
+    ("pin", "`ball`, or `hinge` about one axis"),
+    ("turn", "`drive`"),
+    ("slot", "`cylinder`"),
+    ("wheel", "`disc`, with `rolls`"),
+    ("ball", "`pin`"),
+    ("hinge", "`pin`"),
+    ("drive", "`turn`"),
+    ("cylinder", "`slot`"),
+    ("disc", "`wheel`"),
+    ("rolls", "`wheel`"),
+];
 
 /// What the entries of `forces` add up to.
 #[derive(Default)]
@@ -412,8 +427,11 @@ impl<'m> Lowering<'m> {
                         Home::Space => ("in space", "planar"),
                         _ => ("in the plane", "spatial"),
                     };
+                    let other = COUNTERPARTS.iter().find(|(one, _)| name == one);
+                    let other =
+                        other.map_or(String::new(), |(_, other)| format!(", where it is {other}"));
                     format!(
-                        "`{name}` joins {there} bodies: {}; these are {here}",
+                        "`{name}` joins {there} bodies: {}; these are {here}{other}",
                         usages(&mut named())
                     )
                 }
@@ -432,6 +450,9 @@ impl<'m> Lowering<'m> {
                         Takes::Point | Takes::Body => value.clone(),
                         _ => self.numbers(value.clone(), args[k].loc),
                     }
+                }
+                None if matches!(arg.takes, Takes::Body) => {
+                    self.argument(&own(arg.default), &inner)
                 }
                 None => self.written(arg.default, name.span().into(), &inner),
             };
