@@ -11,7 +11,6 @@ use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
 use crate::integrate::{Method, Outcome, Purpose, Singular, Tolerance};
-use std::collections::VecDeque;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -37,6 +36,10 @@ const COARSEST: f64 = 1e-9;
 /// much as rounding of coordinates makes it: so much more than what it came out with.
 const FAINTEST: f64 = 8.0;
 const AGAIN: f64 = 1.5;
+
+/// A step that comes out worse the nearer it is made begins so many times as far off, as its error asks for, since rounding makes as
+/// much less of it as the square of that.
+const FARTHER_OFF: std::ops::Range<f64> = 2.0..16.0;
 
 /// At a significance δ velocities may be known to no more than so many times the rounding of coordinates over δ².
 const KNOWN: f64 = 16.0 * f64::EPSILON;
@@ -82,6 +85,46 @@ const LEAST: f64 = 0.1;
 /// Steps over a position that are less than this share of what they might be are to begin before.
 const SHORT: f64 = 0.8;
 
+/// Places and states at the starts of steps, the first one first: of the last ones all, of those before ever fewer.
+#[derive(Default)]
+struct Before {
+    states: Vec<(Place, Vec<f64>)>,
+    /// So many of them; the others are room for more.
+    count: usize,
+}
+
+impl Before {
+    fn keep(&mut self, now: Place, state: &[f64]) {
+        if self.count == 2 * BACK {
+            self.count = BACK;
+            (0..BACK).for_each(|k| self.states.swap(k, 2 * k));
+        }
+        if self.count == self.states.len() {
+            self.states.push((now, Vec::new()));
+        }
+        let (place, y) = &mut self.states[self.count];
+        *place = now;
+        y.clear();
+        y.extend_from_slice(state);
+        self.count += 1;
+    }
+
+    /// The first one that is as `is`; all are taken out.
+    fn first(&mut self, is: impl Fn(&Place) -> bool) -> Option<(Place, Vec<f64>)> {
+        let states = &self.states[..std::mem::take(&mut self.count)];
+        states.iter().find(|(place, _)| is(place)).cloned()
+    }
+
+    /// Takes those out that are not as `is`, from the last one on, and the one that is.
+    fn back(&mut self, is: impl Fn(&Place) -> bool) -> Option<(Place, Vec<f64>)> {
+        let last = self.states[..self.count]
+            .iter()
+            .rposition(|(place, _)| is(place));
+        self.count = last.unwrap_or(0);
+        last.map(|last| self.states[last].clone())
+    }
+}
+
 /// What is known of the singular position next to where the run stands.
 #[derive(Default)]
 pub(super) struct Passage {
@@ -98,6 +141,9 @@ pub(super) struct Passage {
     faint: Option<f64>,
     /// What the last such step was off.
     missed: Option<f64>,
+    /// From how far before the position the next one is to begin; and up to what time none is to do so again.
+    farther: Option<f64>,
+    receded: Option<f64>,
     /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
@@ -107,8 +153,7 @@ pub(super) struct Passage {
     turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
-    /// Places and states at the starts of the last steps, the first one first.
-    before: VecDeque<(Place, Vec<f64>)>,
+    before: Before,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
     /// Its relative tolerance, and how many times that of the run the floors of velocities are.
@@ -140,7 +185,7 @@ impl Passage {
     }
 
     /// A step over the position was refused: less is asked for in the next one, if that is as long.
-    fn fade(&mut self, refusal: &Refusal) {
+    fn fade(&mut self, refusal: &Refusal, left: f64) {
         let granted = match (&self.ahead, refusal) {
             _ if self.faint.is_none() => Some(COARSEST),
             (Some(position), Refusal::Inaccurate(error)) => {
@@ -149,6 +194,11 @@ impl Passage {
                 let known = KNOWN * position.rounding / self.closeness(position);
                 let most = known.clamp(FAINTEST * COARSEST, LOST);
                 let no_better = before.is_some_and(|before| missed >= before);
+                if no_better && AGAIN * missed > most {
+                    let times = (missed / COARSEST).sqrt();
+                    let times = times.clamp(FARTHER_OFF.start, FARTHER_OFF.end);
+                    self.farther = Some(times * left);
+                }
                 Some(AGAIN * missed).filter(|granted| no_better && *granted <= most)
             }
             _ => None,
@@ -160,12 +210,7 @@ impl Passage {
 
     /// A step from this place and state is accepted.
     pub(super) fn keep(&mut self, now: Place, state: &[f64]) {
-        let full = self.before.len() >= BACK;
-        let oldest = full.then(|| self.before.pop_front()).flatten();
-        let mut y = oldest.map_or_else(Vec::new, |(_, y)| y);
-        y.clear();
-        y.extend_from_slice(state);
-        self.before.push_back((now, y));
+        self.before.keep(now, state);
     }
 
     /// Makes `tolerance` that of the step in hand, from velocities `v`, in a run with the other one. Whether it has changed. Rounding makes
@@ -282,7 +327,12 @@ impl Driver<'_> {
         // From far enough away: steps of the one size are short, and the last one may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
         let near = (0.0..BACK as f64 * h).contains(&left);
-        let before = self.passage.before.drain(..).next().filter(|_| near);
+        let all = BACK as f64 * h * (1.0 + OFF);
+        let before = self
+            .passage
+            .before
+            .first(|place| -course.ahead(place.t) <= all);
+        let before = before.filter(|_| near);
         let before = before.map(|(place, y)| (place.t, y));
         let (t, start) = before.unwrap_or_else(|| here.clone());
         let problem = &mut *self.equations.problem;
@@ -321,27 +371,43 @@ impl Driver<'_> {
     }
 
     /// Goes back to the start of the last step where a position shows up so near ahead that a step over it would be short beside those of
-    /// the motion, with stages too near to it.
+    /// the motion, with stages too near to it; or farther, where one has come out that was.
     pub(super) fn retreat(&mut self) -> Result<(), Error> {
+        let farther = self.passage.farther.take();
         let (Some([from, to]), Some(position)) = (self.gap, &self.passage.ahead) else {
             return Ok(());
         };
         let course = &self.equations.course;
         let left = course.ahead(position.t);
         let short = left < SHORT * 0.5 * (from + to) * course.h.abs();
-        let known = !self.passage.untried || self.shown.is_some() || self.passage.astray;
+        let again = self.passage.receded.is_some_and(|t| course.ahead(t) > 0.0);
+        let known = match farther {
+            Some(_) => again,
+            None => !self.passage.untried || self.shown.is_some() || !short,
+        };
         let crossed = position.gap == 0.0 && left > 0.0;
-        if known || !crossed || !short || !self.equations.switches.is_empty() {
+        if known || self.passage.astray || !crossed || !self.equations.switches.is_empty() {
             return Ok(());
         }
-        let before = self.passage.before.pop_back();
-        let Some((place, y)) = before.or_else(|| self.run_up()) else {
+        let far = |place: &Place| course.along * (position.t - place.t) >= farther.unwrap_or(0.0);
+        let (along, middle, t) = (course.along, 0.5 * (from + to), position.t);
+        let before = self.passage.before.back(far);
+        if let Some(farther) = farther {
+            self.passage.receded = Some(t + along * farther);
+            (self.passage.faint, self.passage.missed) = (None, None);
+        }
+        let Some((place, y)) = before.or_else(|| farther.is_none().then(|| self.run_up())?) else {
             return Ok(());
         };
-        self.passage.before.clear();
         let now = self.equations.course.now;
-        (self.passage.untried, self.passage.retreated) = (false, Some(now));
-        self.shown = Some((now.t, self.scheme.start().to_vec()));
+        self.passage.untried = farther.is_some();
+        if self.shown.is_none() {
+            self.passage.retreated = Some(now);
+            self.shown = Some((now.t, self.scheme.start().to_vec()));
+        }
+        if farther.is_some() {
+            self.equations.course.h = (t - place.t) / middle;
+        }
         self.restart(place, &y)
     }
 
@@ -426,7 +492,9 @@ impl Driver<'_> {
         if self.passage.passing
             && let Err(refusal) = made
         {
-            self.passage.fade(refusal);
+            let position = self.passage.ahead.as_ref();
+            let left = position.map_or(0.0, |position| course.ahead(position.t));
+            self.passage.fade(refusal, left);
         }
         // Near a position that no stage has met yet, rounding may undo steps already.
         let undone = matches!(made, Err(Refusal::End(None))) && self.passage.ahead.is_none();
