@@ -44,12 +44,11 @@ impl<'m> Lowering<'m> {
             let loc = body.key.loc;
             let spatial = frame.dimension() == Some(3);
             let freely = self.turns_freely(position);
-            // A link that only joins others.
-            let empty = !freely
-                && [&body.mass, &body.inertia]
-                    .into_iter()
-                    .all(|e| e.as_ref().is_some_and(zeros));
-            let mass = self.not_negative(body.mass.as_ref(), "mass", spatial && !empty, &variables);
+            // A link that only joins others, where no quaternion turns it.
+            let written = [&body.mass, &body.inertia].map(|e| e.as_ref().is_some_and(zeros));
+            let empty = spatial && written == [true, true];
+            let heavy = spatial && (freely || !empty);
+            let mass = self.not_negative(body.mass.as_ref(), "mass", heavy, &variables);
             if let Some(energy) = self.hung_energy(&frame, mass) {
                 out.changing = out.changing.or(Some(loc));
                 out.turning.extend(energy);
@@ -60,13 +59,13 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let inertia =
-                    self.turning(&body, &variables, &frame, (mass, freely), &mut out.turning);
-                let given = inertia
-                    .filter(|_| !empty)
-                    .map(|rows| [vec![mass], rows].concat());
-                out.inertias
-                    .extend(given.map(|given| (frame.to_string(), given)));
+                if !empty {
+                    let whole = (mass, freely);
+                    let inertia = self.turning(&body, &variables, &frame, whole, &mut out.turning);
+                    let given = inertia.map(|rows| [vec![mass], rows].concat());
+                    out.inertias
+                        .extend(given.map(|given| (frame.to_string(), given)));
+                }
                 if let Some(first) = own {
                     let indices = &self.model.body_elements[position].indices;
                     out.units
