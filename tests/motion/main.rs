@@ -16,6 +16,7 @@ mod kinks;
 mod massless;
 mod misses;
 mod orientations;
+mod parting;
 mod passing;
 mod poles;
 mod redundant;

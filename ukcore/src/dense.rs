@@ -249,8 +249,8 @@ impl Dense {
         self.metric.divide_transposed(out);
     }
 
-    /// The same in scaled coordinates.
-    fn least_scaled(&mut self, rhs: &[f64], out: &mut [f64]) {
+    /// The same in scaled coordinates, where it is shortest as it stands.
+    pub(crate) fn least_scaled(&mut self, rhs: &[f64], out: &mut [f64]) {
         let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
         scaled.for_each(|((x, s), b)| *x = s * b);
         self.cod.solve(&self.scaled_rhs, out);

@@ -16,7 +16,7 @@ use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::scan::axpy;
 use crate::solver::{CLEAR, RANK_CEILING, leading};
-use search::Search;
+use search::{Meeting, Search};
 
 /// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
 const TOGETHER: f64 = 2.0;
@@ -80,10 +80,13 @@ fn find_of(
                 // Others are near a position of their own, as a second loop may be.
                 let passed = there == rank
                     || there + 1 == rank && search.other_is_met(near, (found.t, rank), &pivots);
+                let scattered =
+                    passed && found.gap == 0.0 && scattered(mech, near, vanishing, (found.t, rank));
                 return passed.then_some(Singular {
                     significance,
                     rate,
                     rounding,
+                    gap: if scattered { f64::NAN } else { found.gap },
                     ..found
                 });
             }
@@ -95,6 +98,28 @@ fn find_of(
         }
     }
     None
+}
+
+/// Whether motions that come to a position where rows beyond so many are lost, nonholonomic ones perhaps, leave it in more than one way.
+fn scattered(
+    mech: &Prepared,
+    near: &State,
+    vanishing: Option<&Vanishing>,
+    (t, rank): (f64, usize),
+) -> bool {
+    if mech.spec().m() == mech.spec().holonomic {
+        return false;
+    }
+    let mut search = Search::new(mech, near);
+    if let Some(vanishing) = vanishing {
+        search.compare(vanishing);
+    }
+    if search.factor(&near.v).is_none() {
+        return false;
+    }
+    let lost = search.dense.cod.order()[rank..search.rank].to_vec();
+    lost.into_iter()
+        .any(|row| search.meeting(near, t, row).scatters())
 }
 
 /// The singular position that a motion from `t` meets between the states `near` and `behind`, where a combination of rows is reversed
@@ -172,6 +197,14 @@ pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     let left = place.and_then(|place| cod.pivots().get(place));
     let all = vanishing.size_in(search.terms.rows());
     left.is_some_and(|left| *left > RANK_CEILING * all)
+}
+
+/// What becomes of motions that come to where a row vanishes at the time `t`; `None` if there is no telling.
+pub(super) fn meeting(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<Meeting> {
+    let Vanishing { near, row, .. } = vanishing;
+    let mut search = Search::new(mech, near);
+    search.compare(vanishing);
+    (t != near.t && search.factor(&near.v).is_some()).then(|| search.meeting(near, t, *row))
 }
 
 /// The singular position that a motion from `t` meets where a row of A that others imply vanishes: where what it says is what they have

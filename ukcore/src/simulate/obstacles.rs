@@ -23,6 +23,9 @@ const SINGULAR: f64 = 1.5e-8;
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
 
+/// The share of its size below which a row tells where it is going to vanish.
+const NEARLY: f64 = 1e-3;
+
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
 
@@ -172,6 +175,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     let Vanishing {
         row, near, reached, ..
     } = &found;
+    let mut met = None;
     let spec = mech.spec();
     if !crossing::counts(mech, &found) {
         let implied = *row < spec.holonomic && !found.rest;
@@ -179,6 +183,21 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             .then(|| crossing::implied(mech, old.t, &found))
             .flatten();
     }
+    // The row when it is least, and where the step began.
+    let mut place = near.q.clone();
+    axpy(found.t - near.t, &near.v, &mut place);
+    let [there, here] = [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
+        let mut jacobian = vec![0.0; q.len() * spec.m()];
+        mech.jacobian(t, q, old.v, &mut jacobian);
+        found.size_in(Rows::all(&jacobian, spec.m()))
+    });
+    // Where it is not reversed yet: when it is going on as it does.
+    let ends = if found.t == near.t && there < NEARLY.min(here) {
+        near.t + (near.t - old.t) * there / (here - there)
+    } else {
+        found.t
+    };
+    let meeting = || crossing::meeting(mech, &found, ends);
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
@@ -188,28 +207,26 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
                 ..position
             });
         }
+        if found.t == near.t && meeting().is_some_and(|meeting| meeting.touches()) {
+            met = Some(ends);
+        }
     } else {
-        // A row that vanishes there whatever the velocity says nothing for a moment alone.
-        let ahead = found.t - near.t;
-        let mut place = near.q.clone();
-        axpy(ahead, &near.v, &mut place);
-        let [there, here] = [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
-            let mut jacobian = vec![0.0; q.len() * spec.m()];
-            mech.jacobian(t, q, old.v, &mut jacobian);
-            found.size_in(Rows::all(&jacobian, spec.m()))
-        });
-        // Nor is one of concern that is small already, and not zero where it is least.
+        // A row that vanishes there whatever the velocity says nothing for a moment alone; nor is one of concern that is small already, and
+        // not zero where it is least.
         let dips = there <= RANK_CEILING && found.least >= UNTOLD;
-        if dips || there <= RANK_CEILING * here {
+        if meeting().is_some_and(|meeting| meeting.scatters()) {
+            met = Some(ends);
+        } else if dips || there <= RANK_CEILING * here {
             return None;
         }
     }
     // Steps are too long yet to tell, or there is more than one way to go on.
-    let way = (found.t - old.t).abs();
+    let t = met.unwrap_or(found.t);
+    let way = (t - old.t).abs();
     let told = if found.rest { *reached } else { found.least } >= UNTOLD;
-    let missed = told.then_some(found.least);
+    let missed = (told && met.is_none()).then_some(found.least);
     let constraints = vec![spec.constraints[*row].name.to_owned()];
-    (found.t != near.t).then(|| Singular::seen(found.t, way, missed, *reached, constraints))
+    (t != near.t).then(|| Singular::seen(t, way, missed, *reached, constraints))
 }
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.

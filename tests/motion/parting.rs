@@ -1,0 +1,227 @@
+//! Places where motions meet that part again: a state tells no more in which way one goes on. Nonholonomic rows that vanish where all motions
+//! lead, and branches that touch. Where a direction tells them apart, or one of them is smooth alone, a motion goes on.
+
+use tests::{assert_close, at};
+use ukcore::{Error, Mechanism, Method, Simulation, State, Trajectory};
+
+ukcore::multibody! {
+    /// Motions along y = c xⁿ, all of which lead through the origin.
+    Pencil {
+        params { n = 2.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        nonholonomic { c: x * dot(y) = n * y * dot(x) }
+    }
+}
+
+ukcore::multibody! {
+    /// A dog that runs towards a hare.
+    Pursuit {
+        params { c = 2.0, v = 1.0, a = 1.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        nonholonomic { aim: dot(y) * (a - x) = dot(x) * (v * t - y), speed: sq(dot(x)) + sq(dot(y)) = sq(c) }
+    }
+}
+
+ukcore::multibody! {
+    /// The same on a blade, by a heading that looks at the hare: what both rows have beside each other is lost.
+    Blade {
+        params { v = 1.0, a = 1.0 }
+        bodies { planar dog { mass: 1, inertia: 0.01 } }
+        holonomic { look: cross(dog.along([1, 0]), [a, v * t] - dog.centre) = 0 }
+        nonholonomic { blade: inner(dog.along([0, 1]), dot(dog.centre)) = 0 }
+    }
+}
+
+ukcore::multibody! {
+    /// Two parabolas that touch in the origin.
+    Parabolas {
+        params { k = 2.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        holonomic { c: (y - sq(x)) * (y - k * sq(x)) = 0 }
+    }
+}
+
+ukcore::multibody! {
+    /// Two cubics that do.
+    Cubics {
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        holonomic { c: (y - x.powi(3)) * (y + x.powi(3)) = 0 }
+    }
+}
+
+ukcore::multibody! {
+    /// Three lines through the origin.
+    Lines {
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        holonomic { c: y * (y - x) * (y + x) = 0 }
+    }
+}
+
+ukcore::multibody! {
+    /// A point that turns about the origin at a given rate, and moves freely along its radius.
+    Turning {
+        params { w = 1.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        nonholonomic { turn: x * dot(y) - y * dot(x) = w * (sq(x) + sq(y)) }
+    }
+}
+
+ukcore::multibody! {
+    /// Rows with factors that vanish at a time and at a place, and directions of their own.
+    Factors {
+        coords { x, y, s }
+        mass { x: 1, y: 1, s: 1 }
+        nonholonomic {
+            a: (t - 0.7) * (dot(y) - 0.5 * dot(x)) = 0.0
+            b: (s - 0.3) * (dot(s) - dot(x) * (1 + 0.3 * x)) = 0.0
+        }
+    }
+}
+
+const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
+const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
+
+/// Runs by all methods at all tolerances, or the positions that they end at.
+fn runs(
+    mechanism: impl Mechanism,
+    start: &State,
+    until: f64,
+) -> impl Iterator<Item = (String, f64, Result<Trajectory, (f64, Vec<String>)>)> {
+    let settings = METHODS.into_iter().flat_map(|m| TOLERANCES.map(|t| (m, t)));
+    settings.map(move |(method, tolerance)| {
+        let what = format!("{method}, {tolerance:e}");
+        let run = Simulation::new(mechanism.clone()).start(start.clone());
+        let run = run.method(method).tolerance(tolerance).until(until);
+        let run = run.map_err(|failure| match failure.error {
+            Error::At { t, source, .. } => match *source {
+                Error::Singular { constraints } => (t, constraints),
+                other => panic!("{what}: at {t}: {other}"),
+            },
+            other => panic!("{what}: {other}"),
+        });
+        (what, tolerance, run)
+    })
+}
+
+/// All of them end before they are at the place, at the time `t`, and name it.
+fn all_end(mechanism: impl Mechanism, start: &State, t: f64, name: &str) {
+    let label = format!("{name} at {t}");
+    for (what, tolerance, run) in runs(mechanism, start, 2.0 * t) {
+        let (end, constraints) = run.expect_err(&format!("{label}, {what}"));
+        let told = constraints.iter().any(|c| c == name);
+        assert!(told, "{label}, {what}: {constraints:?}");
+        let near = (0.95 * t..t + (1e-6_f64).max(10.0 * tolerance)).contains(&end);
+        assert!(near, "{label}, {what}: {end} for {t}");
+    }
+}
+
+#[test]
+fn rows_that_vanish_where_all_motions_lead_end_them() {
+    for n in [1.3, 1.5, 2.0, 3.0, 4.0] {
+        let pencil = Pencil { n };
+        let start = at(&[-1.0, 0.3], &[1.0, -0.3 * n]);
+        // By its speed along the curve.
+        let length: f64 = (0..1000)
+            .map(|k| (f64::from(k) + 0.5) / 1000.0)
+            .map(|x| (1.0 + (0.3 * n * x.powf(n - 1.0)).powi(2)).sqrt() / 1000.0)
+            .sum();
+        let t = length / (1.0 + 0.09 * n * n).sqrt();
+        for (what, _, run) in runs(pencil, &start, 2.0 * t) {
+            let (end, constraints) = run.expect_err(&format!("{n}, {what}"));
+            assert_eq!(constraints, ["c"], "{n}, {what}");
+            assert!(
+                (0.9 * t..1.001 * t).contains(&end),
+                "{n}, {what}: {end} for {t}"
+            );
+        }
+    }
+    for c in [1.1, 1.5, 2.0, 3.0, 10.0] {
+        let dog = Pursuit {
+            c,
+            ..Pursuit::default()
+        };
+        all_end(dog, &at(&[0.0, 0.0], &[c, 0.0]), c / (c * c - 1.0), "aim");
+    }
+}
+
+#[test]
+fn so_do_rows_beside_each_other() {
+    for c in [1.3, 1.7, 2.2] {
+        let start = at(&[0.0; 3], &[c, 0.0, 1.0]);
+        all_end(Blade::default(), &start, c / (c * c - 1.0), "blade");
+    }
+}
+
+/// At loose tolerances a motion may pass in its own branch.
+#[test]
+fn branches_that_touch_end_motions_or_keep_them() {
+    let check = |what: &str,
+                 run: Result<Trajectory, (f64, Vec<String>)>,
+                 branch: &dyn Fn(f64) -> f64| match run {
+        Ok(run) => {
+            let end = run.last().expect("an end");
+            assert_close(what, end.q[1], branch(end.q[0]), 1e-3);
+        }
+        Err((_, constraints)) => assert_eq!(constraints, ["c"], "{what}"),
+    };
+    let mut named = 0;
+    for (k, own) in [(2.0, 1.0), (2.0, 2.0), (-1.0, 1.0)] {
+        let start = at(&[-1.0, own], &[1.0, -2.0 * own]);
+        for (what, _, run) in runs(Parabolas { k }, &start, 2.0) {
+            named += usize::from(run.is_err());
+            check(&what, run, &|x| own * x * x);
+        }
+    }
+    let start = at(&[-1.0, -1.0], &[1.0, 3.0]);
+    for (what, _, run) in runs(Cubics::default(), &start, 2.0) {
+        named += usize::from(run.is_err());
+        check(&what, run, &|x| x.powi(3));
+    }
+    assert!(named > 40, "{named}");
+}
+
+#[test]
+fn motions_with_directions_of_their_own_go_on() {
+    for (slope, start) in [
+        (0.0, at(&[-1.0, 0.0], &[1.0, 0.0])),
+        (1.0, at(&[-1.0, -1.0], &[1.0, 1.0])),
+    ] {
+        for (what, _, run) in runs(Lines::default(), &start, 2.0) {
+            let run = run.unwrap_or_else(|e| panic!("{what}: {e:?}"));
+            let end = run.last().expect("an end");
+            assert_close(&what, end.q[0], 1.0, 1e-9);
+            assert_close(&what, end.q[1], slope, 1e-9);
+        }
+    }
+    for (what, _, run) in runs(Pencil { n: 1.0 }, &at(&[-1.0, 0.3], &[1.0, -0.3]), 2.0) {
+        let run = run.unwrap_or_else(|e| panic!("{what}: {e:?}"));
+        let end = run.last().expect("an end");
+        assert_close(&what, end.q[1], -0.3 * end.q[0], 1e-9);
+    }
+    for speed in [1.3, 1.9, 2.7] {
+        // The radius is cosh t − u sinh t.
+        for (what, tolerance, run) in
+            runs(Turning::default(), &at(&[1.0, 0.0], &[-speed, 1.0]), 2.0)
+        {
+            let run = run.unwrap_or_else(|e| panic!("{speed}, {what}: {e:?}"));
+            let end = run.last().expect("an end");
+            let radius = 2.0_f64.cosh() - speed * 2.0_f64.sinh();
+            let most = 1e4 * tolerance.max(1e-12);
+            assert_close(&what, end.q[0], radius * 2.0_f64.cos(), most);
+            assert_close(&what, end.q[1], radius * 2.0_f64.sin(), most);
+        }
+    }
+    for (what, tolerance, run) in runs(Factors::default(), &at(&[0.0; 3], &[1.0, 0.5, 1.0]), 2.0) {
+        let run = run.unwrap_or_else(|e| panic!("{what}: {e:?}"));
+        let end = run.last().expect("an end");
+        let [x, y, s] = [end.q[0], end.q[1], end.q[2]];
+        assert_close(&what, y, 0.5 * x, 1e3 * tolerance);
+        assert_close(&what, s, x + 0.15 * x * x, 1e3 * tolerance);
+    }
+}
