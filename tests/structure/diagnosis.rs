@@ -289,6 +289,28 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A cart whose frame leans over two wheels that hang on it.
+    Leaning {
+        bodies {
+            spatial frame { mass: 5.0, inertia: [1.0, 1.2, 1.1] }
+            for i in 0..2 { spatial wheel[i] { mass: 1.0, inertia: [0.1, 0.2, 0.1] } }
+        }
+        tree { for i in 0..2 { axle[i]: hinge(frame.at([2 * i - 1, 0, -0.5]), wheel[i].at([0, 0, 0]), [0, 1, 0]) } }
+        holonomic { for i in 0..2 { touch[i]: disc(wheel[i].at([0, 0, 0]), [0, 1, 0], 0.3) } }
+        nonholonomic { for i in 0..2 { grip[i]: rolls(wheel[i].at([0, 0, 0]), [0, 1, 0], 0.3) } }
+    }
+}
+
+/// What hangs on a body in the tree goes along with it.
+#[test]
+fn a_body_that_carries_others_is_not_idle() {
+    let mut q = vec![0.0; Leaning::SPEC.n()];
+    (q[Leaning::FRAME_Z], q[Leaning::FRAME_E0]) = (0.8, 1.0);
+    let diagnosis = diagnose(Leaning::default(), &at_rest(&q)).unwrap();
+    assert!(diagnosis.idle.is_empty(), "{diagnosis}");
+}
+
 /// A rod between balls is put together in one way, however it has spun. The rocker's hinge may be turned over: that is another.
 #[test]
 fn an_idle_spin_is_told_once_and_is_no_other_way_to_put_a_linkage_together() {

@@ -177,6 +177,50 @@ fn pits_and_slopes_that_fade_are_no_rest_positions() {
     assert!(flat.state.q[0].abs() < 1e-5, "{flat:?}");
 }
 
+/// Where forces jump there is no stiffness, whether they are zero there or not; corners that forces go round are rest positions.
+#[test]
+fn kinks_and_apexes_are_told() {
+    mechanisms! {
+        Kink { coords { x } mass { x: 1.0 } potential { abs(x) } }
+        Tip { coords { x, y } mass { x: 1.0, y: 1.0 } potential { norm([x, y]) } }
+        Hole { coords { x, y, z } mass { x: 1.0, y: 1.0, z: 2.0 } potential { 19.62 * z } holonomic { string: norm([x, y]) - z = 2.0 } }
+        Cone { coords { x, y, z } mass { x: 1.0, y: 1.0, z: 1.0 } potential { z } holonomic { c: sq(x) + sq(y) = sq(z) } }
+        Corner { coords { x, y } mass { x: 1.0, y: 1.0 } potential { 0.5 * sq(max(0, x)) + 0.5 * 1e9 * sq(max(0, -x)) + 0.1 * sq(x), sq(y) } }
+        Stop { coords { y } mass { y: 1.0 } potential { 9.81 * y + 0.5 * 1e9 * sq(max(0, -y)) } }
+    }
+    let found = [
+        equilibrium(Kink::default(), &guess(&[0.3]), &[]),
+        equilibrium(Tip::default(), &guess(&[1.0, 0.5]), &[]),
+        equilibrium(Hole::default(), &guess(&[0.5, 0.3, -1.5]), &[]),
+        equilibrium(Hole::default(), &guess(&[0.5, 0.0, -1.5]), &[]),
+        equilibrium(Cone::default(), &guess(&[0.3, 0.4, 0.5]), &[]),
+    ];
+    for found in found {
+        let told = found.expect_err("forces jump").to_string();
+        assert!(told.contains("jumps"), "{told}");
+    }
+    let corner = equilibrium(Corner::default(), &guess(&[0.4, 0.2]), &[]).expect("rest");
+    assert_eq!(corner.stability, Stability::Stable);
+    let stop = equilibrium(Stop::default(), &guess(&[0.4]), &[]).expect("rest");
+    assert_close("under its weight", stop.state.q[0], -9.81e-9, 1e-15);
+}
+
+/// A support that just turns about moves all the same.
+#[test]
+fn supports_that_stand_for_a_moment_are_told() {
+    mechanisms! {
+        Shaken { coords { x, y } mass { x: 1.0, y: 1.0 } potential { 9.81 * y } holonomic { rod: sq(x) + sq(y - 0.1 * cos(3 * t)) = 1.0 } }
+        Still { params { a = 0.0 } coords { x, y } mass { x: 1.0, y: 1.0 } potential { 9.81 * y } holonomic { rod: sq(x) + sq(y - a * cos(3 * t)) = 1.0 } }
+    }
+    let told = equilibrium(Shaken::default(), &guess(&[0.6, -0.7]), &[]).expect_err("it moves");
+    assert!(
+        told.to_string().contains("`rod` changes with time"),
+        "{told}"
+    );
+    let still = equilibrium(Still::default(), &guess(&[0.6, -0.8]), &[]).expect("it hangs");
+    assert_close("below", still.state.q[1], -1.0, 1e-12);
+}
+
 /// Forces vanish at an inflection of the potential and drive on what is beyond it, from whatever side the search comes.
 #[test]
 fn an_inflection_of_the_potential_is_no_stable_rest() {

@@ -225,7 +225,7 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
 }
 
 /// The bodies that can move by themselves while all else stays, and in how many ways, where A has these `rows`, measured and of length 1.
-/// One that hangs on one other alone, or on the ground, is what it is there for.
+/// One that hangs on one other alone, or on the ground, is what it is there for; one that others hang on in the tree takes them along.
 fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usize)> {
     let spec = mech.spec();
     let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
@@ -233,8 +233,13 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
     bodies.dedup();
     let lengths = quaternions(mech, state);
     let pattern = spec.structure.jacobian_pattern;
+    let mass = mass_matrix(mech, state);
     let ways = |name: &&str| {
         let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
+        let carries = |i: &usize| (0..spec.n()).any(|j| mass[(*i, j)] != 0.0 && !own.contains(&j));
+        if own.iter().any(carries) {
+            return 0;
+        }
         let of = |row: usize| {
             pattern
                 .iter()

@@ -51,6 +51,9 @@ const BALANCED: f64 = 1e-12;
 const NOWHERE: f64 = 1e-12;
 /// So far aside, as a part of the coordinates, a stiffness is looked at once more: farther than the search ends beside the place, and near.
 const ASIDE: f64 = 1e-9;
+/// Forces that change by this share of their parts so near a place jump there, if they do no less at this part of the way.
+const JUMP: f64 = 1e-6;
+const NEARER: f64 = 1.0 / 16.0;
 /// Where a stiffness fades towards the place where forces vanish, as that of x⁴ at 0, this part of the coordinates is near it.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
@@ -67,8 +70,8 @@ const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
-/// - [`Error::InvalidSetting`] where constraints move with time, so that nothing rests, and where no rest position is found: it says which
-///   coordinate is driven most where the search ends.
+/// - [`Error::InvalidSetting`] where constraints move with time, so that nothing rests, where no rest position is found, and where forces
+///   jump in the one that is: it says which coordinate is driven most where the search ends.
 pub fn equilibrium(
     mechanism: impl Into<Prepared>,
     guess: &State,
@@ -101,6 +104,7 @@ pub fn equilibrium(
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
         let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
         if here.is_balanced() || still && loose <= BALANCED * here.parts {
+            search.is_smooth(&here)?;
             let stability = search.stability(&here, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
@@ -253,6 +257,16 @@ impl Search {
         }
         state.v.fill(0.0);
         let at = (state.t, &state.q[..], &state.v[..]);
+        if !self.mech.spec().structure.scleronomic {
+            let mut terms = Evaluated::new(self.mech.spec().n(), self.mech.spec().m());
+            terms.dynamics(&self.mech, at.0, at.1, at.2);
+            // They may turn about just now.
+            if let Some(c) = terms.rhs.iter().position(|b| *b != 0.0) {
+                let name = self.mech.spec().constraints[c].name;
+                let reason = format!("does not rest: `{name}` changes with time");
+                return Err(Error::invalid("guess", reason));
+            }
+        }
         let solved = self.solver.solve(at.0, at.1, at.2);
         let solved = solved.map_err(|error| undirected(&self.mech, at, error))?;
         let mass = mass_matrix(&self.mech, &state);
@@ -389,6 +403,34 @@ impl Search {
             out.set_column(k, &(change / (2.0 * h)));
         }
         Ok(out)
+    }
+
+    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. As near as that
+    /// forces beside it are not nearly those at it, and nearer still no less so.
+    fn is_smooth(&mut self, here: &Place) -> Result<(), Error> {
+        for k in 0..here.force.len() {
+            let mut way = DVector::zeros(here.force.len());
+            way[k] = self.size;
+            let change = here.displacement(&way);
+            for side in [ASIDE, -ASIDE] {
+                let mut jump = |share: f64| {
+                    let there = self.displaced(here, &change, share * side);
+                    there.map(|there| there.push - &here.push)
+                };
+                let (Ok(far), Ok(near)) = (jump(1.0), jump(NEARER)) else {
+                    continue;
+                };
+                if far.amax() > JUMP * here.parts && near.amax() > 0.5 * far.amax() {
+                    let name = self.mech.spec().coords[near.icamax()];
+                    let reason = format!(
+                        "leads to where the force on `{name}` jumps, as at a kink of the potential or an apex of a constraint: no stiffness tells \
+                         what becomes of small displacements; give another guess, or hold coordinates"
+                    );
+                    return Err(Error::invalid("guess", reason));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it
