@@ -311,6 +311,32 @@ fn a_body_that_carries_others_is_not_idle() {
     assert!(diagnosis.idle.is_empty(), "{diagnosis}");
 }
 
+ukcore::multibody! {
+    /// A plate that a motor holds, of whose orientation a start says part.
+    Plate {
+        bodies { spatial plate { mass: 1.0, inertia: [0.1, 0.1, 0.2] } }
+        holonomic {
+            axle: hinge(ground.at([0, 0, 0]), plate.at([0.3, 0, 0]), [0, 0, 1])
+            motor: drive(ground, plate, [0, 0, 1], 0.7)
+        }
+        start level { plate.e1 = 0; plate.e2 = 0 }
+    }
+}
+
+/// A quaternion is one orientation with either sign, also where a start leaves it without any.
+#[test]
+fn an_orientation_is_no_other_way_to_itself() {
+    let plate = Plate::default().prepared();
+    let found = plate.start_with_alternatives("level", &[].into()).unwrap();
+    let turn = |state: &State| [state.q[Plate::PLATE_E0], state.q[Plate::PLATE_E3]];
+    let [a, b] = turn(&found.state);
+    // That with the other sense of the motor's directions is another one.
+    for other in &found.alternatives {
+        let [c, d] = turn(other);
+        assert_close("half a turn", a * c + b * d, 0.0, 1e-9);
+    }
+}
+
 /// A rod between balls is put together in one way, however it has spun. The rocker's hinge may be turned over: that is another.
 #[test]
 fn an_idle_spin_is_told_once_and_is_no_other_way_to_put_a_linkage_together() {

@@ -131,6 +131,8 @@ fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assem
         states.push(assembled(mech, guess, held.clone())?);
     }
     let state = states.remove(0);
+    // A guess may have quaternions of no length.
+    ways.places = Places::new(mech, &state, ways.places.extents);
     Ok(ways.assembled(state, states))
 }
 
