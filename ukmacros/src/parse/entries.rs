@@ -28,6 +28,15 @@ pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Re
 pub(super) fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
     let docs = docs(input, diag)?;
     let key = declared(input, diag)?;
+    if input.peek(syn::token::Paren) {
+        let message = format!("a unit stands in brackets: `{} [m]`", key.name);
+        return Err(input.error(message));
+    }
+    if input.peek(Token![:]) || input.peek(Token![=]) {
+        let message =
+            "a coordinate is declared by its name alone; `mass`, `params` and starts say the rest";
+        return Err(input.error(message));
+    }
     Ok(Coord { docs, key })
 }
 
@@ -387,10 +396,13 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
     } else {
         let near: Option<Ident> = input.parse()?;
         if near.is_none_or(|word| word != "near") {
-            let message = format!(
-                "a start says where `{0}` is: `{0} = 1.0`, which holds, or `{0} near 1.0`, from where it may move",
-                keys[0].name
-            );
+            let name = keys[0].name.to_string();
+            let message = match ukunits::Unit::parse(&name) {
+                Ok(_) => format!("a unit stands in brackets: `2.0 [{name}]`"),
+                Err(_) => format!(
+                    "a start says where `{name}` is: `{name} = 1.0`, which holds, or `{name} near 1.0`, from where it may move"
+                ),
+            };
             return Err(syn::Error::new(keys[0].name.span(), message));
         }
     }

@@ -301,7 +301,10 @@ pub(super) fn colon(input: ParseStream<'_>, name: &Ident) -> syn::Result<()> {
             format!("here stands `:`, as in `{name}: 1.0`; `=` is for equations and defaults");
         return Err(input.error(message));
     }
-    input.parse().map(|_: Token![:]| ())
+    needed(input, name, || {
+        format!("behind `{name}` stands `:`, as in `{name}: 1.0`; a product is written with `*`")
+    })
+    .map(|_: Token![:]| ())
 }
 
 /// The `=` behind a name that is declared as a value.
@@ -379,6 +382,9 @@ pub(super) fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Re
         let message =
             "an entry belongs to one coordinate or family; write one for each: `x: …, y: …`";
         return Err(input.error(message));
+    }
+    if !input.peek(syn::Ident) {
+        return Err(input.error("an entry begins with the coordinate that it belongs to: `x: …`"));
     }
     let mut key = key(input, diag)?;
     while input.peek(Token![.]) {

@@ -361,6 +361,8 @@ cases! {
     negative_inertia: "params { j = -1.0 } bodies { planar a { mass: 1, inertia: «j» } }" => "the inertia of a body must not be negative";
     massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive; it is 0 where the inertia is `[0, 0, 0]`, too";
     massless_link_in_space: "bodies { spatial a { mass: «0», inertia: [0, 0, 0] } } tree { j: ball(ground.at([0, 0, 0]), a.at([1, 0, 0])) }" => "the mass of a spatial body must be positive";
+    body_with_itself: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rod»(a.at([0, 0]), a.at([1, 0]), 1) }" => "`rod` joins two bodies; both of these are `a`";
+    place_by_its_numbers: "bodies { planar a { mass: 1, inertia: 1 } } output { o = a.«at»(0, 0) }" => "`at` takes one vector: `body.at([1, 0])`";
     turning_joint_in_space: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «turn»(ground, a) }" => "`turn` joins planar bodies: `turn(a, b)`; these are in space, where it is `drive`";
     no_inertia_in_space: "bodies { spatial «a» { mass: 1 } }" => "spatial body `a` has no inertia";
     inertia_of_one_number: "bodies { spatial a { mass: 1, inertia: «1» } }" => "the inertia of a spatial body is `[xx, yy, zz]`";

@@ -248,6 +248,12 @@ cases! {
     colon_in_an_output: "coords { x } mass { x: 1 } output { o«:» x }" => "here stands `=`: `o = …`";
     hyphen_in_a_parameter: "params { my«-»l = 1 } coords { x } mass { x: 1 }" => "names have no `-`; `_` joins words";
     fractional_powi: "coords { x } mass { x: 1 } potential { x.powi(«2.5») }" => "write `powf(2.5)`";
+    unit_in_parentheses: "coords { x «(»m) } mass { x: 1 }" => "a unit stands in brackets: `x [m]`";
+    mass_of_a_coordinate: "coords { x«:» 1.0 } mass { x: 1 }" => "a coordinate is declared by its name alone";
+    unit_behind_a_start: "coords { x } mass { x: 1 } start s { dot(x) = 2 «m»/s }" => "a unit stands in brackets: `2.0 [m]`";
+    product_without_a_sign: "params { k = 1 } coords { x } mass { x: 2 «k» }" => "a product is written with `*`";
+    force_on_nothing: "params { m = 1 } coords { x } mass { x: m } force { «-»m * 9.81 }" => "an entry begins with the coordinate that it belongs to";
+    power_of_a_parameter: "params { n = 2 } coords { x } mass { x: 1 } potential { x.powi(«n») }" => "others go with `powf`";
     downward_range: "coords { x[3] } mass { for i in «3..0» { x[i]: 1 } }" => "it goes upwards, from the smaller number";
     closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
     cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";

@@ -394,7 +394,8 @@ impl<'m> Lowering<'m> {
         env: &Env<'m>,
     ) -> Value {
         let [body, v] = args else {
-            return self.arity(name, 2, args.len());
+            let message = format!("`{name}` takes one vector: `body.{name}([1, 0])`");
+            return self.error(name.span(), message);
         };
         let frame = match self.argument(body, env) {
             Value::Body(frame) => frame,

@@ -55,6 +55,17 @@ impl<'m> Lowering<'m> {
                     );
                     return self.error(exponent.loc, message);
                 }
+                if let ExprKind::Name(given) = &exponent.kind
+                    && env
+                        .scope
+                        .integer(exponent, &Diagnostics::default())
+                        .is_none()
+                {
+                    let message = format!(
+                        "`{given}` is not an integer constant, which `powi` takes; others go with `powf`"
+                    );
+                    return self.error(exponent.loc, message);
+                }
                 let (Some(base), Some(n)) = (base, env.scope.integer(exponent, self.diag)) else {
                     return Value::Error;
                 };

@@ -3,6 +3,7 @@
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
 use super::array::{Value, describe};
+use super::bodies::Frame;
 use super::reactions::Load;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
@@ -222,6 +223,12 @@ impl<'m> Lowering<'m> {
             let message = format!("`{name}` acts with a force; it stands under `forces`");
             return self.error(name.span(), message);
         };
+        if let [Some((first, _)), Some((second, _))] = Self::ends(&inner)
+            && Rc::ptr_eq(&first, &second)
+        {
+            let message = format!("`{name}` joins two bodies; both of these are `{first}`");
+            return self.error(name.span(), message);
+        }
         let mut rows: Vec<Id> = Vec::new();
         let mut shaped = false;
         for text in texts {
@@ -243,19 +250,24 @@ impl<'m> Lowering<'m> {
         Value::Joint(Rc::new(Joint { rows, names, load }))
     }
 
-    /// How the load of a joint with these arguments is read.
-    fn load(&self, inner: &Env<'m>) -> Option<Load> {
-        let given = |name: &str| inner.args.iter().find(|(n, _)| n == name);
-        let frame = |name: &str| match &given(name)?.1 {
-            Value::Point(point) => Some(point.body.clone()),
-            Value::Body(body) => Some(body.clone()),
+    /// The bodies that a joint with these arguments is between, the second one with the place of its point.
+    fn ends(inner: &Env<'m>) -> [Option<(Rc<Frame>, Option<Vec<Id>>)>; 2] {
+        let end = |name: &str| match &inner.args.iter().find(|(n, _)| n == name)?.1 {
+            Value::Point(point) => Some((point.body.clone(), Some(point.place.entries().to_vec()))),
+            Value::Body(body) => Some((body.clone(), None)),
             _ => None,
         };
-        let (first, second, at) = match given("q") {
-            Some((_, Value::Point(q))) => (frame("p"), frame("q")?, Some(&q.place)),
-            _ => (frame("a"), frame("b")?, None),
-        };
-        let at = at.map(|place| place.entries().to_vec());
+        match end("q") {
+            Some(second) => [end("p"), Some(second)],
+            None => [end("a"), end("b").map(|(body, _)| (body, None))],
+        }
+    }
+
+    /// How the load of a joint with these arguments is read.
+    fn load(&self, inner: &Env<'m>) -> Option<Load> {
+        let [first, second] = Self::ends(inner);
+        let (second, at) = second?;
+        let first = first.map(|(body, _)| body);
         Load::between(first.as_deref(), &second, at, &self.graph)
     }
 
