@@ -398,3 +398,35 @@ fn a_singular_position_without_names_is_a_sentence() {
         "{text}"
     );
 }
+
+ukcore::multibody! {
+    /// A bead on a wire with a corner, which turns a wheel.
+    Corner {
+        coords { x, y, a }
+        mass { x: 1, y: 1, a: 2 }
+        potential { y }
+        holonomic { wire: y = max(x, -0.2 * x), turn: a = 3 * x }
+    }
+}
+
+/// At a corner the velocity of a bead would have to jump, whatever the steps.
+#[test]
+fn a_path_with_a_kink_is_told() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for tolerance in [1e-4, 1e-9, 1e-12] {
+            let start = State {
+                t: 0.0,
+                q: vec![-1.0, 0.2, -3.0],
+                v: vec![0.5, -0.1, 1.5],
+            };
+            let run = Simulation::new(Corner::default()).start(start);
+            let run = run.method(method).tolerance(tolerance).until(3.0);
+            let failure = run.expect_err("a corner");
+            let (_, error) = place(&failure);
+            assert!(
+                matches!(error, Error::Jump { level: "velocity", constraints } if constraints.len() == 1 && constraints[0].0 == "wire"),
+                "{method}, {tolerance:e}: {error}"
+            );
+        }
+    }
+}

@@ -115,10 +115,10 @@ pub enum Error {
         /// Their names.
         constraints: Vec<String>,
     },
-    /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps.
+    /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps, or a path with a kink.
     #[error(
-        "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: \
-         smooth it, or end the run there and start another behind it",
+        "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity, \
+         nor a path have a kink: smooth it, or end the run there and start another behind it",
         named(constraints)
     )]
     Jump {

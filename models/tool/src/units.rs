@@ -197,6 +197,11 @@ fn product(text: &str) -> Result<Quantity, String> {
             Some(c) if c.is_ascii_digit() || c == '.' => {
                 return Err(format!("`*`, `/` or `^` is missing before `{rest}`"));
             }
+            Some(',') => {
+                return Err(format!(
+                    "`{rest}` is one value too many here; `sweep` takes several"
+                ));
+            }
             Some(_) => return Err(format!("`{rest}` is not understood")),
         };
         if next.starts_with(is_letter) && pi(next).is_none() {

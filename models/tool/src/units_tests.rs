@@ -102,6 +102,11 @@ fn mistakes_are_named() {
     fails(".", "m", "not a number");
     fails("1.5.2", "m", "`1.5.2` is not a number");
     fails(
+        "1,2",
+        "m",
+        "`,2` is one value too many here; `sweep` takes several",
+    );
+    fails(
         "2..3",
         "m",
         "`2..3` is a range, which `sweep` takes; here one number is expected",

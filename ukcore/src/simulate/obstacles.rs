@@ -26,6 +26,9 @@ const UNTOLD: f64 = 1e-5;
 /// The share of its size below which a row tells where it is going to vanish.
 const NEARLY: f64 = 1e-3;
 
+/// So many of the shortest steps lead over a switch that a run ends at.
+const FEW: f64 = 64.0;
+
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
 
@@ -349,6 +352,38 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
     (!constraints.is_empty()).then(|| start.locate(Error::Singular { constraints }))
 }
 
+/// The error of a motion that comes within a few steps of the size `step` to the zero of a switch behind which constraints ask for another
+/// velocity.
+fn kink(mechanism: &Prepared, at: &State, step: f64) -> Option<Error> {
+    let spec = mechanism.spec();
+    let values = |time: f64| {
+        let mut q = at.q.clone();
+        axpy(time, &at.v, &mut q);
+        let mut values = vec![0.0; spec.switches.len()];
+        mechanism.switching(at.t + time, &q, &at.v, &mut values);
+        values
+    };
+    let [before, behind] = [-FEW, FEW].map(|steps| values(steps * step));
+    let near =
+        (0..before.len()).filter(|k| before[*k] * behind[*k] <= 0.0 && before[*k] != behind[*k]);
+    let mut rates = near.flat_map(|k| {
+        [Branch::Negative, Branch::Positive].map(|branch| {
+            let (mut held, mut rate) = (mechanism.clone(), vec![0.0; spec.m()]);
+            held.hold(k, branch);
+            held.residual_rate(at.t, &at.q, &at.v, &mut rate);
+            rate
+        })
+    });
+    let [one, other] = [rates.next()?, rates.next()?];
+    let change: Vec<f64> = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).collect();
+    let measure = Measure::at(mechanism, at.t, [&at.q, &at.v]);
+    let kinked = largest(&change) > BEGUN * measure.size(&at.v);
+    kinked.then(|| Error::Jump {
+        level: "velocity",
+        constraints: diagnose::offending(spec, &change, |_| 1.0),
+    })
+}
+
 /// The error of a run from `start` with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration
 /// that has them so.
 pub(super) fn explain(
@@ -384,6 +419,9 @@ pub(super) fn explain(
             if !terms.is_empty() {
                 trouble.error = Error::Chattering { step, terms };
                 return trouble.state.locate(trouble.error);
+            }
+            if let Some(kink) = kink(mechanism, &trouble.state, step) {
+                return trouble.state.locate(kink);
             }
             let n = q.len();
             let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
