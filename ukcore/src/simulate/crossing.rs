@@ -7,6 +7,7 @@
 //! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
 mod search;
+mod zero;
 
 use super::vanishing::Vanishing;
 use crate::assemble::State;
@@ -199,12 +200,24 @@ pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     left.is_some_and(|left| *left > RANK_CEILING * all)
 }
 
-/// What becomes of motions that come to where a row vanishes at the time `t`; `None` if there is no telling.
-pub(super) fn meeting(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<Meeting> {
+/// When a motion meets a place, some time about `t`, where a nonholonomic row vanishes and all motions lead. `None` if there is none, or they
+/// do not.
+pub(super) fn scattering(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<f64> {
+    let met = zero::find(mech, vanishing, t)?;
+    meeting(mech, vanishing, met)?.scatters().then_some(met)
+}
+
+/// Whether other branches of a holonomic row touch that of the motion where it vanishes, some time about `t`.
+pub(super) fn touches(mech: &Prepared, vanishing: &Vanishing, t: f64) -> bool {
+    meeting(mech, vanishing, t).is_some_and(|meeting| meeting.touches())
+}
+
+fn meeting(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<Meeting> {
     let Vanishing { near, row, .. } = vanishing;
     let mut search = Search::new(mech, near);
     search.compare(vanishing);
-    (t != near.t && search.factor(&near.v).is_some()).then(|| search.meeting(near, t, *row))
+    search.factor(&near.v)?;
+    Some(search.meeting(near, t, *row))
 }
 
 /// The singular position that a motion from `t` meets where a row of A that others imply vanishes: where what it says is what they have

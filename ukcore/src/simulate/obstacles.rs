@@ -23,8 +23,10 @@ const SINGULAR: f64 = 1.5e-8;
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
 
-/// The share of its size below which a row tells where it is going to vanish.
+/// The share of its size below which a row tells where it is going to vanish: a nonholonomic one, of which that is looked at; one of branches
+/// that come near each other without touching.
 const NEARLY: f64 = 1e-3;
+const HARDLY: f64 = 1e-6;
 
 /// So many of the shortest steps lead over a switch that a run ends at.
 const FEW: f64 = 64.0;
@@ -145,8 +147,18 @@ pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
 
 /// Where a motion from `old` meets the place where A loses a row; `None` where that is of no concern.
 pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
-    let found = match found {
-        Loss::Row(found) => found,
+    match found {
+        Loss::Rows(rows) => {
+            let holonomic = mech.spec().holonomic;
+            // Beside one that is of no concern nonholonomic ones may be.
+            let mut rows = rows.into_iter().enumerate();
+            let judged = rows.find_map(|(k, found)| {
+                (k == 0 || found.row >= holonomic)
+                    .then(|| vanishing_row(mech, found, old))
+                    .flatten()
+            });
+            judged
+        }
         Loss::Within {
             row,
             ends: [from, to],
@@ -158,13 +170,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             let found = crossing::counts(mech, &row)
                 .then(|| crossing::find(mech, &row.near, Some(&row)))
                 .flatten();
-            return match found.filter(met) {
+            match found.filter(met) {
                 Some(position) => Some(Singular {
                     significance: row.reached,
                     ..position
                 }),
                 None => otherwise.and_then(|other| vanishing(mech, *other, old)),
-            };
+            }
         }
         Loss::Rank {
             states,
@@ -172,9 +184,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             rank,
         } => {
             let [near, behind] = &*states;
-            return crossing::between(mech, old.t, [near, behind], whole, rank);
+            crossing::between(mech, old.t, [near, behind], whole, rank)
         }
-    };
+    }
+}
+
+/// The same of a row by itself.
+fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<Singular> {
     let Vanishing {
         row, near, reached, ..
     } = &found;
@@ -194,13 +210,12 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
         mech.jacobian(t, q, old.v, &mut jacobian);
         found.size_in(Rows::all(&jacobian, spec.m()))
     });
-    // Where it is not reversed yet: when it is going on as it does.
-    let ends = if found.t == near.t && there < NEARLY.min(here) {
-        near.t + (near.t - old.t) * there / (here - there)
-    } else {
-        found.t
+    // When it vanishes where it is not reversed yet, if it goes on as it does.
+    let ends = |share: f64| {
+        let nearly = there < here.min(share);
+        nearly.then(|| near.t + (near.t - old.t) * there / (here - there))
     };
-    let meeting = || crossing::meeting(mech, &found, ends);
+    let reversed = Some(found.t).filter(|t| *t != near.t);
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
@@ -210,16 +225,15 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
                 ..position
             });
         }
-        if found.t == near.t && meeting().is_some_and(|meeting| meeting.touches()) {
-            met = Some(ends);
-        }
+        let ends = ends(HARDLY).filter(|_| reversed.is_none());
+        met = ends.filter(|ends| crossing::touches(mech, &found, *ends));
     } else {
+        let ends = reversed.or_else(|| ends(NEARLY));
+        met = ends.and_then(|ends| crossing::scattering(mech, &found, ends));
         // A row that vanishes there whatever the velocity says nothing for a moment alone; nor is one of concern that is small already, and
         // not zero where it is least.
         let dips = there <= RANK_CEILING && found.least >= UNTOLD;
-        if meeting().is_some_and(|meeting| meeting.scatters()) {
-            met = Some(ends);
-        } else if dips || there <= RANK_CEILING * here {
+        if met.is_none() && (dips || there <= RANK_CEILING * here) {
             return None;
         }
     }

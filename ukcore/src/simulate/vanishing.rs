@@ -61,8 +61,8 @@ const APART: f64 = 2.5;
 
 /// What is lost of A on the way of a motion.
 pub(super) enum Loss {
-    /// A row by itself.
-    Row(Vanishing),
+    /// Rows, each by itself, the one that is least first.
+    Rows(Vec<Vanishing>),
     /// The same between states within a step, which need not be those of the motion: of concern where branches cross, or nearly do. Else
     /// what its ends tell.
     Within {
@@ -178,10 +178,13 @@ impl RowWatch {
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
-        let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
-        let row = first.or_else(|| self.smallest(&self.here, new));
-        let row = row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten());
-        let told = row.map(Loss::Row);
+        let mut rows: Vec<Vanishing> = vanish.collect();
+        rows.sort_by(|a, b| a.least.total_cmp(&b.least));
+        if rows.is_empty() {
+            let row = self.smallest(&self.here, new);
+            rows.extend(row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten()));
+        }
+        let told = (!rows.is_empty()).then_some(Loss::Rows(rows));
         let told = told.or_else(|| self.dependent(mech, old, new, None));
         match within {
             Some(row) => Some(Loss::Within {
@@ -225,7 +228,8 @@ impl RowWatch {
     /// The row that is all but zero where the motion stands, if one is.
     pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Loss> {
         self.look_back(mech, here);
-        self.smallest(&self.seen, here).map(Loss::Row)
+        let row = self.smallest(&self.seen, here)?;
+        Some(Loss::Rows(vec![row]))
     }
 
     /// Whether rows are to be looked at on a step between these times.

@@ -37,10 +37,10 @@ const APART: f64 = 0.02;
 
 /// Other branches are far nearer than the way to a place where a row changes by so many times itself off the path by a share of that way.
 const ASIDE: f64 = 0.3;
-const TURNED: f64 = 10.0;
+const TURNED: f64 = 4.0;
 
 /// What becomes of motions beside one that comes to where rows are lost.
-pub(in crate::simulate) struct Meeting {
+pub(super) struct Meeting {
     /// They are off it by the time from there to this power.
     alpha: f64,
     /// By which share of itself what is lost there changes beside it.
@@ -49,12 +49,12 @@ pub(in crate::simulate) struct Meeting {
 
 impl Meeting {
     /// Whether all of them meet it there.
-    pub(in crate::simulate) fn scatters(&self) -> bool {
+    pub(super) fn scatters(&self) -> bool {
         self.alpha > 1.0 + APART
     }
 
     /// Whether another branch touches theirs there.
-    pub(in crate::simulate) fn touches(&self) -> bool {
+    pub(super) fn touches(&self) -> bool {
         self.turned > TURNED
     }
 }
