@@ -199,6 +199,20 @@ fn kinks_and_apexes_are_told() {
         let told = found.expect_err("forces jump").to_string();
         assert!(told.contains("jumps"), "{told}");
     }
+    // Contacts and laws that are as stiff or narrow as that are smooth all the same, beside coordinates of any size.
+    mechanisms! {
+        Wall { params { k = 1e11 } coords { a, b } mass { a: 1.0, b: 1.0 } potential { 0.5 * sq(a - b), 0.5 * k * sq(max(b - 1.0, 0.0)) } force { a: 5.0 } }
+        Floor { params { k = 1e11, h = 1e3 } coords { x, y } mass { x: 1.0, y: 1.0 } force { y: -9.81 + max(0.0, k * (h - y)), x: -x } }
+        Narrow { params { l = 1e3, e = 1e-7 } coords { x, th } mass { x: 1.0, th: 1.0 } force { x: -1e-3 * (x - l), th: -tanh(th / e) } }
+    }
+    for k in [1e9, 1e10, 1e11, 1e12] {
+        let wall = equilibrium(Wall { k }, &guess(&[0.5, 1.1]), &[]).expect("rest");
+        assert_close("at the wall", wall.state.q[1], 1.0 + 5.0 / k, 1e-15);
+        for h in [0.0, 1e3] {
+            equilibrium(Floor { k, h }, &guess(&[0.3, h - 1.0]), &[]).expect("rest");
+        }
+    }
+    equilibrium(Narrow::default(), &guess(&[900.0, 1e-8]), &[]).expect("rest");
     let corner = equilibrium(Corner::default(), &guess(&[0.4, 0.2]), &[]).expect("rest");
     assert_eq!(corner.stability, Stability::Stable);
     let stop = equilibrium(Stop::default(), &guess(&[0.4]), &[]).expect("rest");
@@ -217,6 +231,29 @@ fn supports_that_stand_for_a_moment_are_told() {
         told.to_string().contains("`rod` changes with time"),
         "{told}"
     );
+    // Others have come to rest, but for rounding.
+    mechanisms! {
+        Cycloid { coords { x, y } mass { x: 1.0, y: 1.0 } potential { 0.5 * sq(y - x) } holonomic { drive: x = t - sin(2 * PI * t) / (2 * PI) } }
+        Ramp { coords { x, y } mass { x: 1.0, y: 1.0 } potential { 0.5 * sq(y - x) } let u = min(t / 0.3, 1.0);
+            holonomic { drive: x = u.powi(3) * (10 - 15 * u + 6 * sq(u)) } }
+    }
+    for t in [1.0, 2.0, 3.0, 5.0, 10.0] {
+        let at = State {
+            t,
+            ..guess(&[t, 0.0])
+        };
+        let rest = equilibrium(Cycloid::default(), &at, &[]).expect("rest");
+        assert_close("there", rest.state.q[1], t, 1e-9);
+    }
+    equilibrium(
+        Ramp::default(),
+        &State {
+            t: 0.3,
+            ..guess(&[1.0, 0.0])
+        },
+        &[],
+    )
+    .expect("rest");
     let still = equilibrium(Still::default(), &guess(&[0.6, -0.8]), &[]).expect("it hangs");
     assert_close("below", still.state.q[1], -1.0, 1e-12);
 }

@@ -236,8 +236,10 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
     let mass = mass_matrix(mech, state);
     let ways = |name: &&str| {
         let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
+        // One with a place of its own hangs on none.
+        let free = own.iter().any(|j| spec.coords[*j] == format!("{name}.x"));
         let carries = |i: &usize| (0..spec.n()).any(|j| mass[(*i, j)] != 0.0 && !own.contains(&j));
-        if own.iter().any(carries) {
+        if free && own.iter().any(carries) {
             return 0;
         }
         let of = |row: usize| {

@@ -13,7 +13,7 @@ use crate::diagnose::undirected;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
-use crate::mechanism::{Evaluated, Prepared};
+use crate::mechanism::{Branch, Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
@@ -51,9 +51,13 @@ const BALANCED: f64 = 1e-12;
 const NOWHERE: f64 = 1e-12;
 /// So far aside, as a part of the coordinates, a stiffness is looked at once more: farther than the search ends beside the place, and near.
 const ASIDE: f64 = 1e-9;
-/// Forces that change by this share of their parts so near a place jump there, if they do no less at this part of the way.
+/// Forces jump by this share of themselves at the zero of a switch, or keep this share of their parts and of what they are at the guess, more
+/// than the stiffness makes of so many roundings of coordinates.
 const JUMP: f64 = 1e-6;
-const NEARER: f64 = 1.0 / 16.0;
+const LEFT: f64 = 0.1;
+const ROUNDINGS: f64 = 16.0;
+/// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
+const MOMENT: f64 = 1e-6;
 /// Where a stiffness fades towards the place where forces vanish, as that of x⁴ at 0, this part of the coordinates is near it.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
@@ -97,14 +101,16 @@ pub fn equilibrium(
         });
     }
     let mut damping = 0.0_f64;
-    let first = here.force.norm();
+    let (first, mut firm) = (here.force.norm(), None);
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
+        let firm = firm.get_or_insert(stiffness.amax());
+        *firm = firm.max(here.force.norm() / search.size);
         let (step, loose) = here.step(&stiffness, search.size).ok_or_else(unfound)?;
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
         let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
         if here.is_balanced() || still && loose <= BALANCED * here.parts {
-            search.is_smooth(&here)?;
+            search.is_smooth(&here, &stiffness, (first, *firm))?;
             let stability = search.stability(&here, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
@@ -257,15 +263,10 @@ impl Search {
         }
         state.v.fill(0.0);
         let at = (state.t, &state.q[..], &state.v[..]);
-        if !self.mech.spec().structure.scleronomic {
-            let mut terms = Evaluated::new(self.mech.spec().n(), self.mech.spec().m());
-            terms.dynamics(&self.mech, at.0, at.1, at.2);
-            // They may turn about just now.
-            if let Some(c) = terms.rhs.iter().position(|b| *b != 0.0) {
-                let name = self.mech.spec().constraints[c].name;
-                let reason = format!("does not rest: `{name}` changes with time");
-                return Err(Error::invalid("guess", reason));
-            }
+        if let Some(c) = self.driven(&state) {
+            let name = self.mech.spec().constraints[c].name;
+            let reason = format!("does not rest: `{name}` changes with time");
+            return Err(Error::invalid("guess", reason));
         }
         let solved = self.solver.solve(at.0, at.1, at.2);
         let solved = solved.map_err(|error| undirected(&self.mech, at, error))?;
@@ -296,6 +297,28 @@ impl Search {
             extents,
             push,
             state,
+        })
+    }
+
+    /// A constraint that moves on with time from where it just stands: b is not 0, and not its rounding beside what it is a moment before and
+    /// behind.
+    fn driven(&self, state: &State) -> Option<usize> {
+        let spec = self.mech.spec();
+        if spec.structure.scleronomic {
+            return None;
+        }
+        let rhs = |t: f64| {
+            let mut terms = Evaluated::new(spec.n(), spec.m());
+            terms.dynamics(&self.mech, t, &state.q, &state.v);
+            terms.rhs
+        };
+        let moment = MOMENT * state.t.abs().max(1.0);
+        let [before, here, behind] = [-moment, 0.0, moment].map(|h| rhs(state.t + h));
+        (0..spec.m()).find(|c| {
+            let change = (before[*c] - here[*c])
+                .abs()
+                .max((behind[*c] - here[*c]).abs());
+            here[*c].abs() > MOMENT * change
         })
     }
 
@@ -405,32 +428,54 @@ impl Search {
         Ok(out)
     }
 
-    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. As near as that
-    /// forces beside it are not nearly those at it, and nearer still no less so.
-    fn is_smooth(&mut self, here: &Place) -> Result<(), Error> {
-        for k in 0..here.force.len() {
-            let mut way = DVector::zeros(here.force.len());
-            way[k] = self.size;
-            let change = here.displacement(&way);
-            for side in [ASIDE, -ASIDE] {
-                let mut jump = |share: f64| {
-                    let there = self.displaced(here, &change, share * side);
-                    there.map(|there| there.push - &here.push)
-                };
-                let (Ok(far), Ok(near)) = (jump(1.0), jump(NEARER)) else {
-                    continue;
-                };
-                if far.amax() > JUMP * here.parts && near.amax() > 0.5 * far.amax() {
-                    let name = self.mech.spec().coords[near.icamax()];
-                    let reason = format!(
-                        "leads to where the force on `{name}` jumps, as at a kink of the potential or an apex of a constraint: no stiffness tells \
-                         what becomes of small displacements; give another guess, or hold coordinates"
-                    );
-                    return Err(Error::invalid("guess", reason));
-                }
-            }
-        }
-        Ok(())
+    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. The search ends
+    /// beside it with a force that rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which
+    /// that is nothing; or in a zero of a switch between different forces.
+    fn is_smooth(
+        &self,
+        here: &Place,
+        stiffness: &DMatrix<f64>,
+        (first, firm): (f64, f64),
+    ) -> Result<(), Error> {
+        let State { t, q, v } = &here.state;
+        let sizes = q.iter().zip(here.units.iter());
+        let rounded = DVector::from_iterator(q.len(), sizes.map(|(q, unit)| (q / unit).abs()));
+        let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
+        let ways = &here.basis * &curved.eigenvectors;
+        let rounded = ROUNDINGS * f64::EPSILON * ways.abs().tr_mul(&rounded);
+        let force = curved.eigenvectors.tr_mul(&here.force);
+        let left = force
+            .iter()
+            .zip(curved.eigenvalues.iter().zip(rounded.iter()));
+        let left = left.map(|(f, (k, rounded))| (f.abs() - k.abs() * rounded).max(0.0));
+        let unbalanced = left.fold(0.0, f64::hypot) > LEFT * first.max(here.parts)
+            || stiffness.amax() * f64::EPSILON > firm;
+        let spec = self.mech.spec();
+        let mut values = vec![0.0; spec.switches.len()];
+        self.mech.switching(*t, q, v, &mut values);
+        let forces = |k: usize, branch: Branch| {
+            let (mut held, mut terms) = (self.mech.clone(), Evaluated::new(spec.n(), spec.m()));
+            held.hold(k, branch);
+            terms.dynamics(&held, *t, q, v);
+            let pairs = terms.force.iter().zip(&terms.nonideal);
+            DVector::from_iterator(spec.n(), pairs.map(|(f, c)| f + c))
+        };
+        let jumps = (0..values.len())
+            .filter(|k| values[*k] == 0.0)
+            .find_map(|k| {
+                let [one, other] = [Branch::Negative, Branch::Positive].map(|b| forces(k, b));
+                let change = &one - &other;
+                (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
+            });
+        let Some(coordinate) = jumps.or_else(|| unbalanced.then(|| here.push.icamax())) else {
+            return Ok(());
+        };
+        let reason = format!(
+            "leads to where the force on `{}` jumps, as at a kink of the potential or an apex of a constraint: no stiffness tells what becomes \
+             of small displacements; give another guess, or hold coordinates",
+            spec.coords[coordinate]
+        );
+        Err(Error::invalid("guess", reason))
     }
 
     /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it

@@ -26,7 +26,10 @@ const UNTOLD: f64 = 1e-5;
 /// The share of its size below which a row tells where it is going to vanish: a nonholonomic one, of which that is looked at; one of branches
 /// that come near each other without touching.
 const NEARLY: f64 = 1e-3;
-const HARDLY: f64 = 1e-6;
+const HARDLY: f64 = 1e-8;
+
+/// The share of the time since it was largest in which a row vanishes that falls to these as a power of the time left.
+const SOON: f64 = 0.01;
 
 /// So many of the shortest steps lead over a switch that a run ends at.
 const FEW: f64 = 64.0;
@@ -213,7 +216,10 @@ fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<S
     // When it vanishes where it is not reversed yet, if it goes on as it does.
     let ends = |share: f64| {
         let nearly = there < here.min(share);
-        nearly.then(|| near.t + (near.t - old.t) * there / (here - there))
+        let ahead = (near.t - old.t) * there / (here - there);
+        // One that only fades is nowhere soon.
+        let soon = ahead.abs() <= SOON * (near.t - found.largest).abs();
+        (nearly && soon).then_some(near.t + ahead)
     };
     let reversed = Some(found.t).filter(|t| *t != near.t);
     if found.rest {

@@ -86,6 +86,8 @@ pub(super) struct Vanishing {
     /// Its greatest length so far, measured by this scale.
     pub(super) size: f64,
     pub(super) scale: Vec<f64>,
+    /// When it was that.
+    pub(super) largest: f64,
     /// A state of the motion near the place.
     pub(super) near: State,
     /// When the row is least, and what it is then as a share of what it is at both ends of the step.
@@ -109,8 +111,9 @@ impl Vanishing {
 /// The rows of A along a run.
 #[derive(Default)]
 pub(super) struct RowWatch {
-    /// The greatest length of each so far.
+    /// The greatest length of each so far, and when it had that.
     sizes: Vec<f64>,
+    largest: Vec<f64>,
     leaves: Leaves,
     /// What makes entries of A comparable: that of the state where the run began.
     measure: Option<Measure>,
@@ -218,6 +221,7 @@ impl RowWatch {
         if first {
             self.look_back(mech, old);
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
+            self.largest = vec![self.seen.t; self.sizes.len()];
             self.left = [1.0; 2];
         }
         self.here.take(mech, new, self.measure.as_ref());
@@ -313,6 +317,7 @@ impl RowWatch {
                 row,
                 size: self.sizes[row],
                 scale: self.scale(),
+                largest: self.largest[row],
                 near: at((from.0 - BEFORE).max(0.0)),
                 t: at(0.5 * (from.0 + to.0)).t,
                 least: from.1.length(row).min(to.1.length(row)) / ends,
@@ -440,6 +445,7 @@ impl RowWatch {
             row,
             size: self.sizes[row],
             scale: self.scale(),
+            largest: self.largest[row],
             near: here.to_state(),
             t: here.t,
             least,
@@ -491,10 +497,10 @@ impl RowWatch {
             }
             self.left[which] = left;
         }
-        let pairs = self.sizes.iter_mut().zip(&self.here.squares);
-        for (size, square) in pairs {
+        let sizes = self.sizes.iter_mut().zip(&mut self.largest);
+        for ((size, largest), square) in sizes.zip(&self.here.squares) {
             if *square > *size * *size {
-                *size = square.sqrt();
+                (*size, *largest) = (square.sqrt(), t);
             }
         }
         // Rows may have come back to what they were.
@@ -543,6 +549,7 @@ impl RowWatch {
             row: c,
             size: self.sizes[c],
             scale: self.scale(),
+            largest: self.largest[c],
             near: between_states(old, new, (part - BEFORE).max(0.0)),
             t: state.t,
             least,

@@ -115,12 +115,12 @@ pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Pa
         while !given.is_empty() {
             let name: Ident = given.parse()?;
             // As in Rust, `{ mass }` is short for `{ mass: mass }`.
-            let value = match given.is_empty() || given.peek(Token![,]) {
-                true => Expr::name(name.clone()),
-                false => {
+            let value = match given.peek(Token![:]) || given.peek(Token![=]) {
+                true => {
                     colon(&given, &name)?;
                     expression(&given, diag)?
                 }
+                false => Expr::name(name.clone()),
             };
             let _: Option<Token![,]> = given.parse()?;
             if out.given.iter().any(|(n, _)| *n == name) {
@@ -397,12 +397,13 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
         let near: Option<Ident> = input.parse()?;
         if near.is_none_or(|word| word != "near") {
             let name = keys[0].name.to_string();
-            let message = match ukunits::Unit::parse(&name) {
-                Ok(_) => format!("a unit stands in brackets: `2.0 [{name}]`"),
-                Err(_) => format!(
-                    "a start says where `{name}` is: `{name} = 1.0`, which holds, or `{name} near 1.0`, from where it may move"
-                ),
+            let unit = match ukunits::Unit::parse(&name) {
+                Ok(_) => format!("; a unit stands in brackets: `2.0 [{name}]`"),
+                Err(_) => String::new(),
             };
+            let message = format!(
+                "a start says where `{name}` is: `{name} = 1.0`, which holds, or `{name} near 1.0`, from where it may move{unit}"
+            );
             return Err(syn::Error::new(keys[0].name.span(), message));
         }
     }
