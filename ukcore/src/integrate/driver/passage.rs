@@ -85,7 +85,7 @@ const LEAST: f64 = 0.1;
 /// Steps over a position that are less than this share of what they might be are to begin before.
 const SHORT: f64 = 0.8;
 
-/// Places and states at the starts of steps, the first one first: of the last ones all, of those before ever fewer.
+/// Places and states at the starts of steps, the first one first, ever fewer the longer ago they are.
 #[derive(Default)]
 struct Before {
     states: Vec<(Place, Vec<f64>)>,
@@ -97,7 +97,7 @@ impl Before {
     fn keep(&mut self, now: Place, state: &[f64]) {
         if self.count == 2 * BACK {
             self.count = BACK;
-            (0..BACK).for_each(|k| self.states.swap(k, 2 * k));
+            (0..BACK).for_each(|k| self.states.swap(k, 2 * k + 1));
         }
         if self.count == self.states.len() {
             self.states.push((now, Vec::new()));
