@@ -451,8 +451,13 @@ impl Search {
         let unbalanced = left.fold(0.0, f64::hypot) > LEFT * first.max(here.parts)
             || stiffness.amax() * f64::EPSILON > firm;
         let spec = self.mech.spec();
-        let mut values = vec![0.0; spec.switches.len()];
-        self.mech.switching(*t, q, v, &mut values);
+        let values = |v: &[f64]| {
+            let mut values = vec![0.0; spec.switches.len()];
+            self.mech.switching(*t, q, v, &mut values);
+            values
+        };
+        // Those of velocities, as of dry friction, are zero wherever it rests.
+        let (still, moved) = (values(v), values(here.units.as_slice()));
         let forces = |k: usize, branch: Branch| {
             let (mut held, mut terms) = (self.mech.clone(), Evaluated::new(spec.n(), spec.m()));
             held.hold(k, branch);
@@ -460,13 +465,12 @@ impl Search {
             let pairs = terms.force.iter().zip(&terms.nonideal);
             DVector::from_iterator(spec.n(), pairs.map(|(f, c)| f + c))
         };
-        let jumps = (0..values.len())
-            .filter(|k| values[*k] == 0.0)
-            .find_map(|k| {
-                let [one, other] = [Branch::Negative, Branch::Positive].map(|b| forces(k, b));
-                let change = &one - &other;
-                (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
-            });
+        let mut zeros = (0..still.len()).filter(|k| still[*k] == 0.0 && moved[*k] == 0.0);
+        let jumps = zeros.find_map(|k| {
+            let [one, other] = [Branch::Negative, Branch::Positive].map(|b| forces(k, b));
+            let change = &one - &other;
+            (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
+        });
         let Some(coordinate) = jumps.or_else(|| unbalanced.then(|| here.push.icamax())) else {
             return Ok(());
         };
