@@ -127,12 +127,15 @@ ukcore::multibody! {
     }
 }
 
-/// Runs by all methods at all tolerances, or the positions that they end at.
+/// A run, or when it ends before a position, and the constraints that it names.
+type Run = Result<Trajectory, (f64, Vec<String>)>;
+
+/// Runs by all methods at all tolerances.
 fn runs(
     mechanism: impl Mechanism,
     start: &State,
     until: f64,
-) -> impl Iterator<Item = (String, f64, Result<Trajectory, (f64, Vec<String>)>)> {
+) -> impl Iterator<Item = (String, f64, Run)> {
     let settings = METHODS.into_iter().flat_map(|m| TOLERANCES.map(|t| (m, t)));
     settings.map(move |(method, tolerance)| {
         let what = format!("{method}, {tolerance:e}");
@@ -246,9 +249,7 @@ fn so_do_rows_beside_each_other() {
 /// At loose tolerances a motion may pass in its own branch.
 #[test]
 fn branches_that_touch_end_motions_or_keep_them() {
-    let check = |what: &str,
-                 run: Result<Trajectory, (f64, Vec<String>)>,
-                 branch: &dyn Fn(f64) -> f64| match run {
+    let check = |what: &str, run: Run, branch: &dyn Fn(f64) -> f64| match run {
         Ok(run) => {
             let end = run.last().expect("an end");
             assert_close(what, end.q[1], branch(end.q[0]), 1e-3);

@@ -624,7 +624,7 @@ ukcore::multibody! {
 fn links_of_the_tree_need_no_mass() {
     fn accelerations<M: Mechanism>(state: &State) -> Vec<f64> {
         let mut found = vec![0.0; state.q.len()];
-        Solver::new(&M::default(), SolverOptions::default())
+        Solver::new(M::default(), SolverOptions::default())
             .acceleration(0.0, &state.q, &state.v, &mut found)
             .expect("a regular mass matrix");
         found
@@ -663,7 +663,7 @@ fn links_of_the_tree_need_no_mass() {
         q: vec![0.1, std::f64::consts::FRAC_PI_2, 0.2],
         v: vec![0.0, 0.1, 0.0],
     };
-    let told = Solver::new(&Gimbals::default(), SolverOptions::default())
+    let told = Solver::new(Gimbals::default(), SolverOptions::default())
         .acceleration(0.0, &lost.q, &lost.v, &mut [0.0; 3])
         .expect_err("gimbal lock")
         .to_string();

@@ -155,12 +155,10 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             let holonomic = mech.spec().holonomic;
             // Beside one that is of no concern nonholonomic ones may be.
             let mut rows = rows.into_iter().enumerate();
-            let judged = rows.find_map(|(k, found)| {
-                (k == 0 || found.row >= holonomic)
-                    .then(|| vanishing_row(mech, found, old))
-                    .flatten()
-            });
-            judged
+            rows.find_map(|(k, found)| match k == 0 || found.row >= holonomic {
+                true => vanishing_row(mech, found, old),
+                false => None,
+            })
         }
         Loss::Within {
             row,

@@ -60,11 +60,11 @@ pub(super) fn find(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<f64
     let mut most = FIRST * before;
     for _ in 0..MOST {
         let here = entries(&z);
-        if !(here.amax() > ZERO * before) {
-            let good = before > 0.0 && here.amax().is_finite();
-            return good.then_some(near.t + z[0] / speed);
+        let left = here.amax();
+        if left <= ZERO * before {
+            return (before > 0.0).then_some(near.t + z[0] / speed);
         }
-        if here.amax() > most {
+        if !left.is_finite() || left > most {
             return None;
         }
         most *= GAIN;

@@ -223,7 +223,7 @@ impl<'m> Lowering<'m> {
             let message = format!("`{name}` acts with a force; it stands under `forces`");
             return self.error(name.span(), message);
         };
-        if let [Some((first, _)), Some((second, _))] = Self::ends(&inner)
+        if let [Some(first), Some(second)] = Self::ends(&inner)
             && Rc::ptr_eq(&first, &second)
         {
             let message = format!("`{name}` joins two bodies; both of these are `{first}`");
@@ -250,25 +250,27 @@ impl<'m> Lowering<'m> {
         Value::Joint(Rc::new(Joint { rows, names, load }))
     }
 
-    /// The bodies that a joint with these arguments is between, the second one with the place of its point.
-    fn ends(inner: &Env<'m>) -> [Option<(Rc<Frame>, Option<Vec<Id>>)>; 2] {
-        let end = |name: &str| match &inner.args.iter().find(|(n, _)| n == name)?.1 {
-            Value::Point(point) => Some((point.body.clone(), Some(point.place.entries().to_vec()))),
-            Value::Body(body) => Some((body.clone(), None)),
+    /// The bodies that a joint with these arguments is between.
+    fn ends(inner: &Env<'m>) -> [Option<Rc<Frame>>; 2] {
+        let body = |name: &str| match &inner.args.iter().find(|(n, _)| n == name)?.1 {
+            Value::Point(point) => Some(point.body.clone()),
+            Value::Body(body) => Some(body.clone()),
             _ => None,
         };
-        match end("q") {
-            Some(second) => [end("p"), Some(second)],
-            None => [end("a"), end("b").map(|(body, _)| (body, None))],
+        match body("q") {
+            Some(second) => [body("p"), Some(second)],
+            None => [body("a"), body("b")],
         }
     }
 
     /// How the load of a joint with these arguments is read.
     fn load(&self, inner: &Env<'m>) -> Option<Load> {
         let [first, second] = Self::ends(inner);
-        let (second, at) = second?;
-        let first = first.map(|(body, _)| body);
-        Load::between(first.as_deref(), &second, at, &self.graph)
+        let at = inner.args.iter().find_map(|(name, value)| match value {
+            Value::Point(q) if name == "q" => Some(q.place.entries().to_vec()),
+            _ => None,
+        });
+        Load::between(first.as_deref(), &*second?, at, &self.graph)
     }
 
     /// Enters what an entry of `forces` means.
