@@ -198,9 +198,8 @@ fn product(text: &str) -> Result<Quantity, String> {
                 return Err(format!("`*`, `/` or `^` is missing before `{rest}`"));
             }
             Some(',') => {
-                return Err(format!(
-                    "`{rest}` is one value too many here; `sweep` takes several"
-                ));
+                let reason = "is not understood; here stands one value, `sweep` takes several";
+                return Err(format!("`{rest}` {reason}"));
             }
             Some(_) => return Err(format!("`{rest}` is not understood")),
         };

@@ -104,7 +104,7 @@ fn mistakes_are_named() {
     fails(
         "1,2",
         "m",
-        "`,2` is one value too many here; `sweep` takes several",
+        "`,2` is not understood; here stands one value, `sweep` takes several",
     );
     fails(
         "2..3",
