@@ -13,6 +13,7 @@ mod friction;
 mod impacts;
 mod integrals;
 mod kinks;
+mod light;
 mod massless;
 mod misses;
 mod orientations;

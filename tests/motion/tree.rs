@@ -130,7 +130,7 @@ fn random_state<M: Mechanism>(random: &mut Random) -> State {
     State { t: 0.7, q, v }
 }
 
-fn outputs<M: Mechanism>(mechanism: &Prepared, state: &State) -> Vec<f64> {
+pub(super) fn outputs<M: Mechanism>(mechanism: &Prepared, state: &State) -> Vec<f64> {
     let mut out = vec![0.0; M::SPEC.outputs.len()];
     mechanism.outputs(state.t, &state.q, &state.v, &mut out);
     out
@@ -460,86 +460,6 @@ fn bricards_linkage_by_angles_moves_with_a_row_to_spare() {
 }
 
 ukcore::multibody! {
-    /// A thin rod that hangs on a cross.
-    Rod {
-        params { m = 1.2, l = 0.8, g = 9.81 }
-        gravity { [0, 0, -g] }
-        bodies { spatial rod { mass: m, inertia: [0, m * sq(l) / 12.0, m * sq(l) / 12.0] } }
-        tree { cross: universal(ground.at([0, 0, 0]), rod.at([-l / 2.0, 0, 0]), [0, 1, 0], [0, 0, 1]) }
-        output { end = rod.at([l / 2.0, 0, 0]) }
-    }
-}
-
-ukcore::multibody! {
-    /// The same rod by its free end alone.
-    RodEnd {
-        params { m = 1.2, l = 0.8, g = 9.81 }
-        coords { p[3] }
-        kinetic { m / 6.0 * sq(dot(p)) }
-        potential { m * g * p[2] / 2.0 }
-        holonomic { length: sq(p) = sq(l) }
-    }
-}
-
-/// A thin rod has no moment about its axis; of a rod on a cross, whose angles turn it elsewhere, it needs none.
-#[test]
-fn thin_rods_hang_on_crosses() {
-    let mut random = Random::new(11);
-    let (tree, end) = (Rod::default(), RodEnd::default());
-    for _ in 0..20 {
-        let state = State {
-            t: 0.0,
-            q: vec![3.0 * random.signed(), 1.2 * random.signed()],
-            v: random.vector(2),
-        };
-        let [a, b] = [state.q[0], state.q[1]];
-        let [da, db] = [state.v[0], state.v[1]];
-        let (l, g) = (tree.l, tree.g);
-        // About y by a, then about z by b.
-        let p = [a.cos() * b.cos(), b.sin(), -a.sin() * b.cos()].map(|x| l * x);
-        let v = [
-            -a.sin() * b.cos() * da - a.cos() * b.sin() * db,
-            b.cos() * db,
-            -a.cos() * b.cos() * da + a.sin() * b.sin() * db,
-        ]
-        .map(|x| l * x);
-        assert_all_close(
-            "the end",
-            &outputs::<Rod>(&tree.prepared(), &state),
-            &p,
-            1e-14,
-        );
-        let mut found = vec![0.0; 2];
-        Solver::new(&tree, SolverOptions::default())
-            .acceleration(0.0, &state.q, &state.v, &mut found)
-            .expect("a regular mass matrix");
-        // Lagrange's equations of the two angles, by hand: T = m l²/6 (ḃ² + ȧ² cos² b), V = −m g l/2 sin a cos b.
-        let expected = [
-            2.0 * da * db * b.tan() + 1.5 * g / l * a.cos() / b.cos(),
-            -da * da * b.sin() * b.cos() - 1.5 * g / l * a.sin() * b.sin(),
-        ];
-        assert_all_close("accelerations", &found, &expected, 1e-11);
-        let mut free = vec![0.0; 3];
-        Solver::new(&end, SolverOptions::default())
-            .acceleration(0.0, &p, &v, &mut free)
-            .expect("accelerations");
-        let along = [
-            -a.sin() * b.cos() * found[0]
-                - a.cos() * b.sin() * found[1]
-                - a.cos() * b.cos() * (da * da + db * db)
-                + 2.0 * a.sin() * b.sin() * da * db,
-            b.cos() * found[1] - b.sin() * db * db,
-            -a.cos() * b.cos() * found[0]
-                + a.sin() * b.sin() * found[1]
-                + a.sin() * b.cos() * (da * da + db * db)
-                + 2.0 * a.cos() * b.sin() * da * db,
-        ]
-        .map(|x| l * x);
-        assert_all_close("the end's acceleration", &free, &along, 1e-11);
-    }
-}
-
-ukcore::multibody! {
     /// A free body with two arms, one on a hinge and one on a spherical joint with a further link, and nothing that acts from outside.
     Floating {
         bodies {
@@ -575,97 +495,4 @@ fn momentum_of_floating_bodies_stays() {
     for out in &all[1..] {
         assert_all_close("momentum and its moment", out, &all[0], 1e-8);
     }
-}
-
-ukcore::multibody! {
-    /// A point mass at the end of a light rod that hangs on a cross.
-    Bob {
-        params { m = 1.2, l = 0.8, g = 9.81 }
-        gravity { [0, 0, -g] }
-        bodies { spatial rod { mass: 0, inertia: [0, 0, 0] } spatial bob { mass: m, inertia: [0, 0, 0] } }
-        tree {
-            cross: universal(ground.at([0, 0, 0]), rod.at([0, 0, 0]), [0, 1, 0], [0, 0, 1])
-            end: weld(rod.at([l, 0, 0]), bob.at([0, 0, 0]))
-        }
-    }
-}
-
-ukcore::multibody! {
-    /// A wheel in two rings without mass.
-    Gimbals {
-        params { j[3] = [0.2, 0.3, 0.45], m = 1.5 }
-        bodies {
-            spatial outer { mass: 0, inertia: [0, 0, 0] }
-            spatial inner { mass: 0.0 [kg], inertia: [0, 0.0, 0] }
-            spatial wheel { mass: m, inertia: j }
-        }
-        tree {
-            heading: hinge(ground.at([0, 0, 0]), outer.at([0, 0, 0]), [0, 0, 1])
-            pitch: hinge(outer.at([0, 0, 0]), inner.at([0, 0, 0]), [0, 1, 0])
-            roll: hinge(inner.at([0, 0, 0]), wheel.at([0, 0, 0]), [1, 0, 0])
-        }
-    }
-}
-
-ukcore::multibody! {
-    /// The same wheel by its rates in its own axes.
-    Rates {
-        params { j[3] = [0.2, 0.3, 0.45] }
-        coords { a, b, c }
-        let p = dot(c) - dot(a) * sin(b);
-        let q = dot(b) * cos(c) + dot(a) * cos(b) * sin(c);
-        let r = dot(a) * cos(b) * cos(c) - dot(b) * sin(c);
-        kinetic { 0.5 * (j[0] * sq(p) + j[1] * sq(q) + j[2] * sq(r)) }
-    }
-}
-
-/// Links without mass join what has some: the angles of the joints between them move that.
-#[test]
-fn links_of_the_tree_need_no_mass() {
-    fn accelerations<M: Mechanism>(state: &State) -> Vec<f64> {
-        let mut found = vec![0.0; state.q.len()];
-        Solver::new(M::default(), SolverOptions::default())
-            .acceleration(0.0, &state.q, &state.v, &mut found)
-            .expect("a regular mass matrix");
-        found
-    }
-    let mut random = Random::new(12);
-    let bob = Bob::default();
-    for _ in 0..20 {
-        let state = State {
-            t: 0.0,
-            q: vec![3.0 * random.signed(), 1.2 * random.signed()],
-            v: random.vector(2),
-        };
-        let [a, b] = [state.q[0], state.q[1]];
-        let [da, db] = [state.v[0], state.v[1]];
-        // Lagrange's equations: T = m l²/2 (ḃ² + ȧ² cos² b), V = −m g l sin a cos b.
-        let expected = [
-            2.0 * da * db * b.tan() + bob.g / bob.l * a.cos() / b.cos(),
-            -da * da * b.sin() * b.cos() - bob.g / bob.l * a.sin() * b.sin(),
-        ];
-        assert_all_close("a bob", &accelerations::<Bob>(&state), &expected, 1e-11);
-        let state = State {
-            t: 0.0,
-            q: random.vector(3),
-            v: random.vector(3),
-        };
-        let expected = accelerations::<Rates>(&state);
-        assert_all_close(
-            "gimbals",
-            &accelerations::<Gimbals>(&state),
-            &expected,
-            1e-11,
-        );
-    }
-    let lost = State {
-        t: 0.0,
-        q: vec![0.1, std::f64::consts::FRAC_PI_2, 0.2],
-        v: vec![0.0, 0.1, 0.0],
-    };
-    let told = Solver::new(Gimbals::default(), SolverOptions::default())
-        .acceleration(0.0, &lost.q, &lost.v, &mut [0.0; 3])
-        .expect_err("gimbal lock")
-        .to_string();
-    assert!(told.contains("`heading.angle`, `roll.angle`"), "{told}");
 }

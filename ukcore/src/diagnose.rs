@@ -152,10 +152,7 @@ pub(crate) fn undirected(mech: &Prepared, (t, q, v): (f64, &[f64], &[f64]), erro
     if !matches!(error, Error::NonFinite { .. }) {
         return error;
     }
-    let switches = mech.spec().switches;
-    let mut values = vec![0.0; switches.len()];
-    mech.switching(t, q, v, &mut values);
-    let zero = switches.iter().zip(values);
+    let zero = mech.spec().switches.iter().zip(mech.switches_at(t, q, v));
     let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
     let terms = SwitchSpec::terms(zero.map(|(switch, _)| switch));
     match terms.is_empty() {

@@ -13,7 +13,7 @@ use crate::diagnose::undirected;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
-use crate::mechanism::{Branch, Evaluated, Prepared};
+use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
@@ -428,58 +428,41 @@ impl Search {
         Ok(out)
     }
 
-    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. The search ends
-    /// beside it with a force that rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which
-    /// that is nothing; or in a zero of a switch between different forces.
+    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness.
     fn is_smooth(
         &self,
         here: &Place,
         stiffness: &DMatrix<f64>,
-        (first, firm): (f64, f64),
+        before: (f64, f64),
     ) -> Result<(), Error> {
-        let State { t, q, v } = &here.state;
-        let sizes = q.iter().zip(here.units.iter());
-        let rounded = DVector::from_iterator(q.len(), sizes.map(|(q, unit)| (q / unit).abs()));
-        let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
-        let ways = &here.basis * &curved.eigenvectors;
-        let rounded = ROUNDINGS * f64::EPSILON * ways.abs().tr_mul(&rounded);
-        let force = curved.eigenvectors.tr_mul(&here.force);
-        let left = force
-            .iter()
-            .zip(curved.eigenvalues.iter().zip(rounded.iter()));
-        let left = left.map(|(f, (k, rounded))| (f.abs() - k.abs() * rounded).max(0.0));
-        let unbalanced = left.fold(0.0, f64::hypot) > LEFT * first.max(here.parts)
-            || stiffness.amax() * f64::EPSILON > firm;
-        let spec = self.mech.spec();
-        let values = |v: &[f64]| {
-            let mut values = vec![0.0; spec.switches.len()];
-            self.mech.switching(*t, q, v, &mut values);
-            values
-        };
-        // Those of velocities, as of dry friction, are zero wherever it rests.
-        let (still, moved) = (values(v), values(here.units.as_slice()));
-        let forces = |k: usize, branch: Branch| {
-            let (mut held, mut terms) = (self.mech.clone(), Evaluated::new(spec.n(), spec.m()));
-            held.hold(k, branch);
-            terms.dynamics(&held, *t, q, v);
-            let pairs = terms.force.iter().zip(&terms.nonideal);
-            DVector::from_iterator(spec.n(), pairs.map(|(f, c)| f + c))
-        };
-        let mut zeros = (0..still.len()).filter(|k| still[*k] == 0.0 && moved[*k] == 0.0);
-        let jumps = zeros.find_map(|k| {
-            let [one, other] = [Branch::Negative, Branch::Positive].map(|b| forces(k, b));
-            let change = &one - &other;
-            (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
-        });
-        let Some(coordinate) = jumps.or_else(|| unbalanced.then(|| here.push.icamax())) else {
+        let unbalanced = is_unbalanced(here, stiffness, before).ok_or_else(unfound)?;
+        let beside = unbalanced.then(|| here.push.icamax());
+        let Some(coordinate) = self.jump(&here.state, &here.units).or(beside) else {
             return Ok(());
         };
         let reason = format!(
             "leads to where the force on `{}` jumps, as at a kink of the potential or an apex of a constraint: no stiffness tells what becomes \
              of small displacements; give another guess, or hold coordinates",
-            spec.coords[coordinate]
+            self.mech.spec().coords[coordinate]
         );
         Err(Error::invalid("guess", reason))
+    }
+
+    /// The coordinate on which forces differ most between both sides of a switch that is zero at a state of rest, if they do.
+    fn jump(&self, State { t, q, v }: &State, units: &DVector<f64>) -> Option<usize> {
+        let (mech, spec) = (&self.mech, self.mech.spec());
+        // Those of velocities, as of dry friction, are zero wherever it rests.
+        let [still, moved] = [&v[..], units.as_slice()].map(|v| mech.switches_at(*t, q, v));
+        let mut zeros = (0..still.len()).filter(|k| still[*k] == 0.0 && moved[*k] == 0.0);
+        zeros.find_map(|k| {
+            let [one, other] = mech.on_both_sides(k).map(|held| {
+                let mut terms = Evaluated::new(spec.n(), spec.m());
+                terms.dynamics(&held, *t, q, v);
+                DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal)
+            });
+            let change = &one - &other;
+            (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
+        })
     }
 
     /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it
@@ -524,6 +507,26 @@ impl Search {
             _ => Stability::Unstable,
         })
     }
+}
+
+/// Whether a search that began with the largest force `first`, and has met the stiffness `firm`, ends beside a jump of forces: with one that
+/// rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which that is nothing. `None` for one
+/// that is not finite.
+fn is_unbalanced(
+    here: &Place,
+    stiffness: &DMatrix<f64>,
+    (first, firm): (f64, f64),
+) -> Option<bool> {
+    let sizes = here.state.q.iter().zip(here.units.iter());
+    let sizes = DVector::from_iterator(here.units.len(), sizes.map(|(q, unit)| (q / unit).abs()));
+    let curved = spectrum::symmetric(symmetric(stiffness))?;
+    let ways = &here.basis * &curved.eigenvectors;
+    let rounded = ROUNDINGS * f64::EPSILON * ways.abs().tr_mul(&sizes);
+    let force = curved.eigenvectors.tr_mul(&here.force);
+    let explained = curved.eigenvalues.abs().component_mul(&rounded);
+    let left = (force.abs() - explained).map(|left| left.max(0.0));
+    let limit = LEFT * first.max(here.parts);
+    Some(left.norm() > limit || stiffness.amax() * f64::EPSILON > firm)
 }
 
 /// The symmetric part of `matrix`.

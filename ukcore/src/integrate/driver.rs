@@ -18,6 +18,7 @@ use noise::{CLEARLY, LOST, Noise, OFTEN, SELDOM};
 use passage::Passage;
 use switching::Goal;
 
+mod before;
 mod noise;
 mod passage;
 mod switching;
@@ -270,7 +271,7 @@ impl Driver<'_> {
         let interpolated = self.stay(trial, error)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
-        (self.passage).keep(self.equations.course.now, self.scheme.start());
+        (self.passage.before).keep(self.equations.course.now, self.scheme.start());
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
         self.rounded += usize::from(error * rounding > 1.0);

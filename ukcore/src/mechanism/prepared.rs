@@ -280,6 +280,22 @@ impl Prepared {
         (self.code.face().guess)(start, &given, each);
     }
 
+    /// The switching functions at (t, q, q̇).
+    pub(crate) fn switches_at(&self, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; self.spec.switches.len()];
+        self.switching(t, q, v, &mut values);
+        values
+    }
+
+    /// This mechanism with a switch held in its one branch and in the other.
+    pub(crate) fn on_both_sides(&self, switch: usize) -> [Self; 2] {
+        [Branch::Negative, Branch::Positive].map(|branch| {
+            let mut held = self.clone();
+            held.hold(switch, branch);
+            held
+        })
+    }
+
     /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
     #[must_use]
     pub fn plan(&self) -> Plan {

@@ -6,6 +6,7 @@
 //! motion passes it in the branch it came on: the one without a jump of its velocity. Where e is not 0 no motion gets there: it turns,
 //! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
+mod meeting;
 mod search;
 mod zero;
 
@@ -17,7 +18,7 @@ use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::scan::axpy;
 use crate::solver::{CLEAR, RANK_CEILING, leading};
-use search::{Meeting, Search};
+use search::Search;
 
 /// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
 const TOGETHER: f64 = 2.0;
@@ -50,11 +51,7 @@ fn find_of(
     vanishing: Option<&Vanishing>,
     most: usize,
 ) -> Option<Singular> {
-    let mut search = Search::new(mech, near);
-    if let Some(vanishing) = vanishing {
-        search.compare(vanishing);
-    }
-    search.factor(&near.v)?;
+    let mut search = Search::at(mech, near, vanishing)?;
     let pivots = search.dense.cod.pivots().to_vec();
     let counting = pivots.len().min(most);
     let significance = pivots[..counting].last().copied()?;
@@ -111,13 +108,9 @@ fn scattered(
     if mech.spec().m() == mech.spec().holonomic {
         return false;
     }
-    let mut search = Search::new(mech, near);
-    if let Some(vanishing) = vanishing {
-        search.compare(vanishing);
-    }
-    if search.factor(&near.v).is_none() {
+    let Some(mut search) = Search::at(mech, near, vanishing) else {
         return false;
-    }
+    };
     let lost = search.dense.cod.order()[rank..search.rank].to_vec();
     lost.into_iter()
         .any(|row| search.meeting(near, t, row).scatters())
@@ -188,11 +181,9 @@ pub(super) fn at(
 
 /// Whether a row of A that is small at a state, beside what it has been, says something there that the others do not.
 pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
-    let mut search = Search::new(mech, &vanishing.near);
-    search.compare(vanishing);
-    if search.factor(&vanishing.near.v).is_none() {
+    let Some(search) = Search::at(mech, &vanishing.near, Some(vanishing)) else {
         return false;
-    }
+    };
     let cod = &search.dense.cod;
     let place = cod.order().iter().position(|c| *c == vanishing.row);
     let left = place.and_then(|place| cod.pivots().get(place));
@@ -204,29 +195,23 @@ pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
 /// do not.
 pub(super) fn scattering(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<f64> {
     let met = zero::find(mech, vanishing, t)?;
-    meeting(mech, vanishing, met)?.scatters().then_some(met)
+    let Vanishing { near, row, .. } = vanishing;
+    let mut search = Search::at(mech, near, Some(vanishing))?;
+    search.meeting(near, met, *row).scatters().then_some(met)
 }
 
 /// Whether other branches of a holonomic row touch that of the motion where it vanishes, some time about `t`.
 pub(super) fn touches(mech: &Prepared, vanishing: &Vanishing, t: f64) -> bool {
-    meeting(mech, vanishing, t).is_some_and(|meeting| meeting.touches())
-}
-
-fn meeting(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<Meeting> {
     let Vanishing { near, row, .. } = vanishing;
-    let mut search = Search::new(mech, near);
-    search.compare(vanishing);
-    search.factor(&near.v)?;
-    Some(search.meeting(near, t, *row))
+    let search = Search::at(mech, near, Some(vanishing));
+    search.is_some_and(|mut search| search.meeting(near, t, *row).touches())
 }
 
 /// The singular position that a motion from `t` meets where a row of A that others imply vanishes: where what it says is what they have
 /// beside each other, that vanishes with it, and shows only in rows that are compared with what they have been.
 pub(super) fn implied(mech: &Prepared, t: f64, vanishing: &Vanishing) -> Option<Singular> {
     let Vanishing { near, rank, .. } = vanishing;
-    let mut search = Search::new(mech, near);
-    search.compare(vanishing);
-    search.factor(&near.v)?;
+    let search = Search::at(mech, near, Some(vanishing))?;
     let cod = &search.dense.cod;
     let counting = cod.pivots().len().min(*rank);
     let significance = cod.pivots()[..counting].last().copied()?;

@@ -31,9 +31,6 @@ const HARDLY: f64 = 1e-8;
 /// The share of the time since it was largest in which a row vanishes that falls to these as a power of the time left.
 const SOON: f64 = 0.01;
 
-/// So many of the shortest steps lead over a switch that a run ends at.
-const FEW: f64 = 64.0;
-
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
 
@@ -204,15 +201,17 @@ fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<S
             .flatten();
     }
     // The row when it is least, and where the step began.
-    let mut place = near.q.clone();
-    axpy(found.t - near.t, &near.v, &mut place);
-    let [there, here] = [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
-        let mut jacobian = vec![0.0; q.len() * spec.m()];
-        mech.jacobian(t, q, old.v, &mut jacobian);
-        found.size_in(Rows::all(&jacobian, spec.m()))
-    });
+    let sizes = || {
+        let mut place = near.q.clone();
+        axpy(found.t - near.t, &near.v, &mut place);
+        [(found.t, &place[..]), (old.t, old.q)].map(|(t, q)| {
+            let mut jacobian = vec![0.0; q.len() * spec.m()];
+            mech.jacobian(t, q, old.v, &mut jacobian);
+            found.size_in(Rows::all(&jacobian, spec.m()))
+        })
+    };
     // When it vanishes where it is not reversed yet, if it goes on as it does.
-    let ends = |share: f64| {
+    let ends = |[there, here]: [f64; 2], share: f64| {
         let nearly = there < here.min(share);
         let ahead = (near.t - old.t) * there / (here - there);
         // One that only fades is nowhere soon.
@@ -229,10 +228,13 @@ fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<S
                 ..position
             });
         }
-        let ends = ends(HARDLY).filter(|_| reversed.is_none());
-        met = ends.filter(|ends| crossing::touches(mech, &found, *ends));
+        if reversed.is_none() {
+            let ends = ends(sizes(), HARDLY);
+            met = ends.filter(|ends| crossing::touches(mech, &found, *ends));
+        }
     } else {
-        let ends = reversed.or_else(|| ends(NEARLY));
+        let [there, here] = sizes();
+        let ends = reversed.or_else(|| ends([there, here], NEARLY));
         met = ends.and_then(|ends| crossing::scattering(mech, &found, ends));
         // A row that vanishes there whatever the velocity says nothing for a moment alone; nor is one of concern that is small already, and
         // not zero where it is least.
@@ -374,31 +376,25 @@ pub(super) fn leaves_no_branch(mechanism: &Prepared, start: &State) -> Option<Er
 /// velocity.
 fn kink(mechanism: &Prepared, at: &State, step: f64) -> Option<Error> {
     let spec = mechanism.spec();
-    let values = |time: f64| {
-        let mut q = at.q.clone();
+    let [before, behind] = [-standstill::FEW, standstill::FEW].map(|steps| {
+        let (time, mut q) = (steps * step, at.q.clone());
         axpy(time, &at.v, &mut q);
-        let mut values = vec![0.0; spec.switches.len()];
-        mechanism.switching(at.t + time, &q, &at.v, &mut values);
-        values
-    };
-    let [before, behind] = [-FEW, FEW].map(|steps| values(steps * step));
-    let near =
+        mechanism.switches_at(at.t + time, &q, &at.v)
+    });
+    let mut near =
         (0..before.len()).filter(|k| before[*k] * behind[*k] <= 0.0 && before[*k] != behind[*k]);
-    let mut rates = near.flat_map(|k| {
-        [Branch::Negative, Branch::Positive].map(|branch| {
-            let (mut held, mut rate) = (mechanism.clone(), vec![0.0; spec.m()]);
-            held.hold(k, branch);
+    let speed = Measure::at(mechanism, at.t, [&at.q, &at.v]).size(&at.v);
+    near.find_map(|k| {
+        let [one, other] = mechanism.on_both_sides(k).map(|held| {
+            let mut rate = vec![0.0; spec.m()];
             held.residual_rate(at.t, &at.q, &at.v, &mut rate);
             rate
+        });
+        let change: Vec<f64> = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).collect();
+        (largest(&change) > BEGUN * speed).then(|| Error::Jump {
+            level: "velocity",
+            constraints: diagnose::offending(spec, &change, |_| 1.0),
         })
-    });
-    let [one, other] = [rates.next()?, rates.next()?];
-    let change: Vec<f64> = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).collect();
-    let measure = Measure::at(mechanism, at.t, [&at.q, &at.v]);
-    let kinked = largest(&change) > BEGUN * measure.size(&at.v);
-    kinked.then(|| Error::Jump {
-        level: "velocity",
-        constraints: diagnose::offending(spec, &change, |_| 1.0),
     })
 }
 

@@ -7,7 +7,7 @@ use crate::solver::Solver;
 use crate::spec::SwitchSpec;
 
 /// A motion that comes to rest within so many of the shortest steps is there.
-const FEW: f64 = 64.0;
+pub(super) const FEW: f64 = 64.0;
 
 /// A force without bound has grown by more than this factor where half of a length is left: the root of it by 1.4.
 const GROWN: f64 = 1.2;
@@ -32,11 +32,7 @@ pub(super) fn terms(
             v: along(&from.v, acceleration),
         }
     };
-    let lengths = |State { t, q, v }: &State| {
-        let mut values = vec![0.0; switches.len()];
-        solver.mechanism().switching(*t, q, v, &mut values);
-        values
-    };
+    let lengths = |State { t, q, v }: &State| solver.mechanism().switches_at(*t, q, v);
     let [here, there] = [0.0, reach].map(|time| lengths(&moved(time)));
     let near = |k: &usize| switches[*k].length && here[*k] < 0.5 * there[*k];
     let near: Vec<usize> = (0..switches.len()).filter(near).collect();

@@ -313,18 +313,10 @@ impl RowWatch {
             };
             let [first, .., last] = &looks;
             let ends = first.1.length(row).min(last.1.length(row));
-            return Some(Vanishing {
-                row,
-                size: self.sizes[row],
-                scale: self.scale(),
-                largest: self.largest[row],
-                near: at((from.0 - BEFORE).max(0.0)),
-                t: at(0.5 * (from.0 + to.0)).t,
-                least: from.1.length(row).min(to.1.length(row)) / ends,
-                reached: ends / self.sizes[row],
-                rest: false,
-                rank: self.rank(),
-            });
+            let near = at((from.0 - BEFORE).max(0.0));
+            let least = from.1.length(row).min(to.1.length(row));
+            let t = at(0.5 * (from.0 + to.0)).t;
+            return Some(self.found(row, near, t, [least / ends, ends / self.sizes[row]]));
         }
         None
     }
@@ -441,18 +433,24 @@ impl RowWatch {
         let mut small = rows.map(|((x, size), may)| *may && *x < (SMALL * size).powi(2));
         let row = small.position(|small| small)?;
         let least = matrix.length(row) / self.sizes[row];
-        Some(Vanishing {
+        Some(self.found(row, here.to_state(), here.t, [least; 2]))
+    }
+
+    /// A row that is least at `t`, a state near which is given: by these shares of what it is around, and of its size at a state of the run.
+    fn found(&self, row: usize, near: State, t: f64, [least, reached]: [f64; 2]) -> Vanishing {
+        let measure = self.measure.as_ref();
+        Vanishing {
             row,
             size: self.sizes[row],
-            scale: self.scale(),
+            scale: measure.map_or_else(Vec::new, |measure| measure.scale.clone()),
             largest: self.largest[row],
-            near: here.to_state(),
-            t: here.t,
+            near,
+            t,
             least,
-            reached: least,
+            reached,
             rest: false,
             rank: self.rank(),
-        })
+        }
     }
 
     /// As many rows as counted where the run began.
@@ -466,11 +464,6 @@ impl RowWatch {
         let ends = [&self.seen, &self.here];
         let ranks = ends.map(|end| counting(&end.entries, self.sizes.len(), RANK_CEILING));
         ranks.into_iter().fold(self.rank(), usize::max)
-    }
-
-    fn scale(&self) -> Vec<f64> {
-        let measure = self.measure.as_ref();
-        measure.map_or_else(Vec::new, |measure| measure.scale.clone())
     }
 
     /// The run has got to the time `t`.
@@ -545,17 +538,9 @@ impl RowWatch {
         let between = Matrix::at(mech, Sample::from(&state), measure, &self.leaves);
         let ends = self.seen.length(c).min(self.here.length(c));
         let least = between.length(c) / ends;
-        (least < DIP).then(|| Vanishing {
-            row: c,
-            size: self.sizes[c],
-            scale: self.scale(),
-            largest: self.largest[c],
-            near: between_states(old, new, (part - BEFORE).max(0.0)),
-            t: state.t,
-            least,
-            reached: ends / self.sizes[c],
-            rest: false,
-            rank: self.rank(),
+        (least < DIP).then(|| {
+            let near = between_states(old, new, (part - BEFORE).max(0.0));
+            self.found(c, near, state.t, [least, ends / self.sizes[c]])
         })
     }
 }

@@ -4,6 +4,7 @@
 //! the stages of one step leave a gap, those stages are evaluated on the constraints, and the step is as long, and has the order, that a
 //! smooth motion allows. Nothing is evaluated at the position itself.
 
+use super::before::Before;
 use super::{Driver, LOST, Refusal};
 use crate::error::Error;
 use crate::integrate::course::{Place, Trial};
@@ -65,7 +66,7 @@ const MET: f64 = 1e-4;
 const UP_TO: f64 = 0.9;
 
 /// So many steps of one size before a position are made by longer ones, which are to have the room to go over it as they would.
-const BACK: usize = 32;
+pub(super) const BACK: usize = 32;
 /// So many behind it.
 const BEYOND: usize = 8;
 
@@ -85,46 +86,6 @@ const LEAST: f64 = 0.1;
 /// Steps over a position that are less than this share of what they might be are to begin before.
 const SHORT: f64 = 0.8;
 
-/// Places and states at the starts of steps, the first one first, ever fewer the longer ago they are.
-#[derive(Default)]
-struct Before {
-    states: Vec<(Place, Vec<f64>)>,
-    /// So many of them; the others are room for more.
-    count: usize,
-}
-
-impl Before {
-    fn keep(&mut self, now: Place, state: &[f64]) {
-        if self.count == 2 * BACK {
-            self.count = BACK;
-            (0..BACK).for_each(|k| self.states.swap(k, 2 * k + 1));
-        }
-        if self.count == self.states.len() {
-            self.states.push((now, Vec::new()));
-        }
-        let (place, y) = &mut self.states[self.count];
-        *place = now;
-        y.clear();
-        y.extend_from_slice(state);
-        self.count += 1;
-    }
-
-    /// The first one that is as `is`; all are taken out.
-    fn first(&mut self, is: impl Fn(&Place) -> bool) -> Option<(Place, Vec<f64>)> {
-        let states = &self.states[..std::mem::take(&mut self.count)];
-        states.iter().find(|(place, _)| is(place)).cloned()
-    }
-
-    /// Takes those out that are not as `is`, from the last one on, and the one that is.
-    fn back(&mut self, is: impl Fn(&Place) -> bool) -> Option<(Place, Vec<f64>)> {
-        let last = self.states[..self.count]
-            .iter()
-            .rposition(|(place, _)| is(place));
-        self.count = last.unwrap_or(0);
-        last.map(|last| self.states[last].clone())
-    }
-}
-
 /// What is known of the singular position next to where the run stands.
 #[derive(Default)]
 pub(super) struct Passage {
@@ -141,7 +102,7 @@ pub(super) struct Passage {
     faint: Option<f64>,
     /// What the last such step was off.
     missed: Option<f64>,
-    /// From how far before the position the next one is to begin; and up to what time none is to do so again.
+    /// How many times as far before the position the next one is to begin; and up to what time none is to do so again.
     farther: Option<f64>,
     receded: Option<f64>,
     /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
@@ -153,7 +114,7 @@ pub(super) struct Passage {
     turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
-    before: Before,
+    pub(super) before: Before,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
     /// Its relative tolerance, and how many times that of the run the floors of velocities are.
@@ -185,7 +146,7 @@ impl Passage {
     }
 
     /// A step over the position was refused: less is asked for in the next one, if that is as long.
-    fn fade(&mut self, refusal: &Refusal, left: f64) {
+    fn fade(&mut self, refusal: &Refusal) {
         let granted = match (&self.ahead, refusal) {
             _ if self.faint.is_none() => Some(COARSEST),
             (Some(position), Refusal::Inaccurate(error)) => {
@@ -197,7 +158,7 @@ impl Passage {
                 if no_better && AGAIN * missed > most {
                     let times = (missed / COARSEST).sqrt();
                     let times = times.clamp(FARTHER_OFF.start, FARTHER_OFF.end);
-                    self.farther = Some(times * left);
+                    self.farther = Some(times);
                 }
                 Some(AGAIN * missed).filter(|granted| no_better && *granted <= most)
             }
@@ -206,11 +167,6 @@ impl Passage {
         if granted.is_some() {
             (self.faint, self.untried) = (granted, true);
         }
-    }
-
-    /// A step from this place and state is accepted.
-    pub(super) fn keep(&mut self, now: Place, state: &[f64]) {
-        self.before.keep(now, state);
     }
 
     /// Makes `tolerance` that of the step in hand, from velocities `v`, in a run with the other one. Whether it has changed. Rounding makes
@@ -373,12 +329,13 @@ impl Driver<'_> {
     /// Goes back to the start of the last step where a position shows up so near ahead that a step over it would be short beside those of
     /// the motion, with stages too near to it; or farther, where one has come out that was.
     pub(super) fn retreat(&mut self) -> Result<(), Error> {
-        let farther = self.passage.farther.take();
+        let times = self.passage.farther.take();
         let (Some([from, to]), Some(position)) = (self.gap, &self.passage.ahead) else {
             return Ok(());
         };
         let course = &self.equations.course;
         let left = course.ahead(position.t);
+        let farther = times.map(|times| times * left);
         let short = left < SHORT * 0.5 * (from + to) * course.h.abs();
         let again = self.passage.receded.is_some_and(|t| course.ahead(t) > 0.0);
         let known = match farther {
@@ -492,9 +449,7 @@ impl Driver<'_> {
         if self.passage.passing
             && let Err(refusal) = made
         {
-            let position = self.passage.ahead.as_ref();
-            let left = position.map_or(0.0, |position| course.ahead(position.t));
-            self.passage.fade(refusal, left);
+            self.passage.fade(refusal);
         }
         // Near a position that no stage has met yet, rounding may undo steps already.
         let undone = matches!(made, Err(Refusal::End(None))) && self.passage.ahead.is_none();

@@ -5,7 +5,7 @@
 mod rates;
 
 use crate::assemble::State;
-use crate::dense::{Dense, Rows};
+use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
@@ -31,37 +31,9 @@ const BEFORE: f64 = 0.9;
 const DIFFERENCE: f64 = 1e-5;
 const BENT: f64 = 1e-3;
 
-/// The share of the way to a place by which motions beside it are off; their exponents that differ by less are the same.
-const OFF_PATH: f64 = 1e-3;
-const APART: f64 = 0.02;
-
-/// Other branches are far nearer than the way to a place where a row changes by so many times itself off the path by a share of that way.
-const ASIDE: f64 = 0.3;
-const TURNED: f64 = 4.0;
-
-/// What becomes of motions beside one that comes to where rows are lost.
-pub(super) struct Meeting {
-    /// They are off it by the time from there to this power.
-    alpha: f64,
-    /// By which share of itself what is lost there changes beside it.
-    turned: f64,
-}
-
-impl Meeting {
-    /// Whether all of them meet it there.
-    pub(super) fn scatters(&self) -> bool {
-        self.alpha > 1.0 + APART
-    }
-
-    /// Whether another branch touches theirs there.
-    pub(super) fn touches(&self) -> bool {
-        self.turned > TURNED
-    }
-}
-
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
-    mech: &'a Prepared,
+    pub(super) mech: &'a Prepared,
     noise: Noise,
     pub(super) dense: Dense,
     pub(super) terms: Evaluated,
@@ -103,61 +75,22 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Compares a row with what it has been.
-    pub(super) fn compare(&mut self, vanishing: &Vanishing) {
-        self.dense.sizes[vanishing.row] = vanishing.size;
-        self.dense.measure.keep(&vanishing.scale);
-    }
-
-    /// How motions part, or meet, where what `row` says beside the others is lost at `t`: the equations are factored at `near`, before it.
-    ///
-    /// With τ the time from there it is τᵏ n, and what it says of a motion beside this one, off it by s along n, is τ ṡ = α s: a share
-    /// s = C τ^α. For α > 1 all of them meet there in one direction, and C is not the same behind it. Else one of them is smooth alone, or
-    /// a direction tells them apart; of holonomic rows alone α is −k. For k > 1 several branches meet, and their directions tell them
-    /// apart if they are as far from each other before it as they are from there, which t need not be known well for. Else they touch.
-    pub(super) fn meeting(&mut self, near: &State, t: f64, row: usize) -> Meeting {
-        let (mech, ahead) = (self.mech, t - near.t);
-        let (n, m) = (near.q.len(), mech.spec().m());
-        let (mut one, mut way, mut across) = (vec![0.0; m], vec![0.0; n], vec![0.0; n]);
-        one[row] = 1.0;
-        // The way that it bars, on which it grows by 1 in a unit of time.
-        self.dense.least_scaled(&one, &mut across);
-        self.dense.least_norm(&one, &mut way);
-        let measure = &self.dense.measure;
-        let off = ahead.abs() * measure.size(&near.v) / measure.size(&way);
-        let place = |share: f64| {
-            let mut q = near.q.clone();
-            axpy(share * off, &way, &mut q);
-            q
-        };
-        // What a change of what the rows say is of this one, less what the others make of it.
-        let mut own = |change: &[f64]| {
-            let mut along = vec![0.0; n];
-            self.dense.least_scaled(change, &mut along);
-            dot(&along, &across) / dot(&across, &across)
-        };
-        let change = |of: &dyn Fn(&[f64], &mut [f64]), shares: [f64; 2]| -> Vec<f64> {
-            let [a, b] = shares.map(|share| {
-                let mut out = vec![0.0; m];
-                of(&place(share), &mut out);
-                out
-            });
-            a.iter().zip(b).map(|(a, b)| a - b).collect()
-        };
-        let rates = |q: &[f64], out: &mut [f64]| mech.residual_rate(near.t, q, &near.v, out);
-        let rates = change(&rates, [OFF_PATH, -OFF_PATH]);
-        let alpha = ahead * own(&rates) / (2.0 * OFF_PATH * off);
-        let along = |q: &[f64], out: &mut [f64]| {
-            let mut jacobian = vec![0.0; n * m];
-            mech.jacobian(near.t, q, &near.v, &mut jacobian);
-            let rows = Rows::all(&jacobian, m);
-            (out.iter_mut().enumerate()).for_each(|(c, out)| *out = rows.product(c, &way));
-        };
-        let sides = [ASIDE, -ASIDE].map(|share| own(&change(&along, [share, 0.0])).abs());
-        Meeting {
-            alpha,
-            turned: sides[0].max(sides[1]),
+    /// One that stands at `near`, the equations factored there; a row that is known to vanish is compared with what it has been.
+    pub(super) fn at(
+        mech: &'a Prepared,
+        near: &State,
+        vanishing: Option<&Vanishing>,
+    ) -> Option<Self> {
+        let mut search = Search::new(mech, near);
+        if let Some(Vanishing {
+            row, size, scale, ..
+        }) = vanishing
+        {
+            search.dense.sizes[*row] = *size;
+            search.dense.measure.keep(scale);
         }
+        search.factor(&near.v)?;
+        Some(search)
     }
 
     /// Goes to where a motion that is `near` is at a time, by its velocity.

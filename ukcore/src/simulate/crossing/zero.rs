@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::dense::Rows;
 use crate::mechanism::Prepared;
-use crate::scan::axpy;
+use crate::scan::{axpy, largest_by};
 use crate::simulate::vanishing::Vanishing;
 use crate::spectrum;
 
@@ -33,7 +33,7 @@ pub(super) fn find(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<f64
         row, near, scale, ..
     } = vanishing;
     let (n, m) = (near.q.len(), mech.spec().m());
-    let speed = (0..n).fold(0.0_f64, |most, i| most.max((near.v[i] / scale[i]).abs()));
+    let speed = largest_by(&near.v, scale);
     let way = speed * (t - near.t).abs();
     if !(way > 0.0 && way.is_finite()) {
         return None;
