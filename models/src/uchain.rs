@@ -89,6 +89,7 @@ const X0: StartOption = StartOption {
     doc: "horizontal distance of the tip from the support",
     default: 12.0,
     unit: "m",
+    written: "",
 };
 
 impl Model for UChain {

@@ -168,6 +168,7 @@ const fn holonomic(name: &'static str) -> ConstraintSpec {
 const fn param(name: &'static str, default: f64) -> ParamSpec {
     ParamSpec {
         unit: "",
+        written: "",
         name,
         doc: "",
         default,

@@ -54,6 +54,8 @@ pub struct ParamSpec {
     pub default: f64,
     /// Its unit in SI, such as `"kg m^2"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
+    /// The unit that its default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
+    pub written: &'static str,
 }
 
 /// An output.
@@ -102,6 +104,8 @@ pub struct StartOption {
     pub default: f64,
     /// Its unit in SI, such as `"rad"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
+    /// The unit that its default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
+    pub written: &'static str,
 }
 
 /// A picture of a mechanism: shapes whose points [`Prepared::drawing`](crate::Prepared::drawing) gives at a state. Where no `draw` is

@@ -152,7 +152,7 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let runs = args.runs.each(entry, MOST_RUNS)?;
     let path = args.out.clone();
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
-    let (mut takes, mut notes) = (Vec::new(), args.runs.angles(entry));
+    let (mut takes, mut notes) = (Vec::new(), args.runs.bare(entry));
     for run in &runs {
         let differs = run.differs.iter();
         let label = joined(differs.map(|(name, value)| format!("{name} = {value}")));
@@ -226,7 +226,7 @@ fn kind(kind: ShapeKind) -> &'static str {
 pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = ready.mechanism.spec().params.iter();
     let parameters = parameters.zip(ready.mechanism.parameters());
-    let parameters = parameters.map(|(p, value)| setting(p.name, *value, p.unit));
+    let parameters = parameters.map(|(p, value)| setting(p.name, *value, [p.unit, p.written]));
     let parameters: Vec<String> = parameters.collect();
     let (start, method) = (ready.start, motion.method);
     let tolerance = motion.tolerance();

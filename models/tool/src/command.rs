@@ -82,7 +82,7 @@ impl Command {
 }
 
 #[derive(Debug, Parser)]
-#[command(about = "Dynamics of constrained multibody systems", after_help = HELP)]
+#[command(version, about = "Dynamics of constrained multibody systems", after_help = HELP)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -30,7 +30,7 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
             doc => writeln!(out, "{head}: {doc}")?,
         }
         for option in start.options {
-            let setting = setting(option.name, option.default, option.unit);
+            let setting = setting(option.name, option.default, [option.unit, option.written]);
             let line = format!("        {setting:<24}{}", option.doc);
             writeln!(out, "{}", line.trim_end())?;
         }
@@ -48,7 +48,7 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
     paragraph(
         out,
         "parameters",
-        params.map(|p| setting(p.name, p.default, p.unit)),
+        params.map(|p| setting(p.name, p.default, [p.unit, p.written])),
     )?;
     writeln!(out)
 }

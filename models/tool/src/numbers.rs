@@ -1,6 +1,7 @@
 //! Numbers as text for reading.
 
 use serde_json::Number;
+use ukunits::Unit;
 
 pub use ukcore::numbers::{fixed, full, short, significant};
 
@@ -23,19 +24,24 @@ pub(crate) fn exact(value: f64) -> String {
     })
 }
 
-/// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
-pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
-    let text = match in_degrees(value, unit) {
-        Some(degrees) => format!("{name} = {degrees} deg"),
-        None => format!("{name} = {} {unit}", short(value, 8)),
-    };
+/// `name = value unit`, of a value in SI, or [in another unit](elsewhere).
+pub(crate) fn setting(name: &str, value: f64, units: [&str; 2]) -> String {
+    let (number, unit) = elsewhere(value, units).unwrap_or((short(value, 8), units[0]));
+    let text = format!("{name} = {number} {unit}");
     text.trim_end().to_owned()
 }
 
-/// The `value` of a `unit` in degrees, if it is an angle that has fewer digits there.
-pub(crate) fn in_degrees(value: f64, unit: &str) -> Option<String> {
-    let [si, degrees] = [value, rounded(value.to_degrees())].map(|x| short(x, 8));
-    (unit == "rad" && degrees.len() < si.len()).then_some(degrees)
+/// A value in an SI unit as it is in the other one, in which it is declared, if it has no more digits there; in degrees, if it has fewer and
+/// is an angle declared in radians.
+pub(crate) fn elsewhere(value: f64, units: [&str; 2]) -> Option<(String, &str)> {
+    let (other, declared) = match units {
+        ["rad", ""] => ("deg", false),
+        [_, written] => (written, true),
+    };
+    let unit = Unit::parse(other).ok()?;
+    let [si, number] = [value, rounded(unit.from_si(value))].map(|x| short(x, 8));
+    let suits = number.len() < si.len() + usize::from(declared);
+    suits.then_some((number, other))
 }
 
 /// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
@@ -111,14 +117,17 @@ mod tests {
 
     #[test]
     fn settings_are_short() {
-        for (value, unit, text) in [
-            (50_f64.to_radians(), "rad", "a = 50 deg"),
-            (0.9, "rad", "a = 0.9 rad"),
-            (0.0, "rad", "a = 0 rad"),
-            (0.5, "", "a = 0.5"),
-            (1.23e-3, "m", "a = 0.00123 m"),
+        for (value, units, text) in [
+            (50_f64.to_radians(), ["rad", "deg"], "a = 50 deg"),
+            (50_f64.to_radians(), ["rad", ""], "a = 50 deg"),
+            (0.9, ["rad", ""], "a = 0.9 rad"),
+            (0.0, ["rad", ""], "a = 0 rad"),
+            (0.5, ["", ""], "a = 0.5"),
+            (1.23e-3, ["m", ""], "a = 0.00123 m"),
+            (0.5, ["m", "mm"], "a = 500 mm"),
+            (250.0, ["m", "mm"], "a = 250 m"),
         ] {
-            assert_eq!(setting("a", value, unit), text);
+            assert_eq!(setting("a", value, units), text);
         }
     }
 

@@ -87,8 +87,8 @@ impl Runs {
             .collect())
     }
 
-    /// What to say of angles that may be meant in degrees.
-    pub(crate) fn angles(&self, entry: &Entry) -> Vec<String> {
+    /// What to say of a number that may be meant in the unit of the declaration.
+    pub(crate) fn bare(&self, entry: &Entry) -> Vec<String> {
         let start = Start {
             place: self.place.clone(),
             ..Start::default()
@@ -100,7 +100,7 @@ impl Runs {
             };
             values.iter().map(move |value| (name, value))
         });
-        let notes = given.filter_map(|(name, value)| start.angle(entry, name, value));
+        let notes = given.filter_map(|(name, value)| start.bare(entry, name, value));
         notes.take(1).collect()
     }
 

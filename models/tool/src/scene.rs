@@ -3,10 +3,11 @@
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
 use ukcore::{Error, Prepared, State, assemble};
+use ukunits::Unit;
 
 use crate::command::find;
 use crate::failure::Failure;
-use crate::numbers::{in_degrees, short};
+use crate::numbers::{elsewhere, short};
 use crate::units::{self, Quantity};
 use crate::ways;
 
@@ -129,27 +130,38 @@ impl Start {
         })
     }
 
-    /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and angles
-    /// that may be meant in degrees.
+    /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and numbers
+    /// that may be meant in the units of the declaration.
     pub(crate) fn noted<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let given = self.settings.iter();
         // They may be why it fails.
-        ways::tell(given.filter_map(|(name, value)| self.angle(entry, name, value)));
+        ways::tell(given.filter_map(|(name, value)| self.bare(entry, name, value)));
         let ready = self.ready(entry)?;
         ways::tell(self.other_ways(&ready));
         Ok(ready)
     }
 
-    /// What to say of an angle called `name` for which a bare number is given, if `list` has it in degrees.
-    pub(crate) fn angle(&self, entry: &Entry, name: &str, given: &Quantity) -> Option<String> {
+    /// What to say of a bare number given for `name`, whose default `list` has in a unit that is not SI, if it would be nearer to that
+    /// default there.
+    pub(crate) fn bare(&self, entry: &Entry, name: &str, given: &Quantity) -> Option<String> {
         let value = given.bare()?;
         let start = self.spec(entry).ok()?;
-        let Setting { default, unit, .. } = setting(entry, name, start).ok()?;
-        in_degrees(default, unit)?;
-        let number = short(value, 8);
-        in_degrees(value, unit).is_none().then(|| {
-            format!("`{name}` is {number} rad, as bare numbers are; for degrees write `{name}={number}deg`")
-        })
+        let Setting { default, units, .. } = setting(entry, name, start).ok()?;
+        let (_, unit) = elsewhere(default, units)?;
+        let far = |value: f64| (value / default).abs().ln().abs();
+        let there = Unit::parse(unit).ok()?.to_si(value);
+        let nearer = far(there) < far(value) || default == 0.0;
+        if !nearer || elsewhere(value, units).is_some() {
+            return None;
+        }
+        let (number, si) = (short(value, 8), units[0]);
+        let meant = match unit.contains(' ') {
+            true => format!("'{name}={number} {unit}'"),
+            false => format!("{name}={number}{unit}"),
+        };
+        Some(format!(
+            "`{name}` is {number} {si}, as bare numbers are; in {unit} write `{meant}`"
+        ))
     }
 
     /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
@@ -162,8 +174,8 @@ impl Start {
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
-            let Setting { option, unit, .. } = setting(entry, name, start)?;
-            let value = quantity.si(unit).map_err(Failure::value(name))?;
+            let Setting { option, units, .. } = setting(entry, name, start)?;
+            let value = quantity.si(units[0]).map_err(Failure::value(name))?;
             match option {
                 true => options.set(name, value),
                 false => mechanism.set(name, value)?,
@@ -174,7 +186,7 @@ impl Start {
 
     /// The unit of the parameter or option called `name`.
     pub(crate) fn unit(&self, entry: &Entry, name: &str) -> Result<&'static str, Failure> {
-        Ok(setting(entry, name, self.spec(entry)?)?.unit)
+        Ok(setting(entry, name, self.spec(entry)?)?.units[0])
     }
 
     fn spec(&self, entry: &Entry) -> Result<Option<&'static StartSpec>, Failure> {
@@ -248,7 +260,8 @@ struct Setting {
     /// An option of the start, not a parameter.
     option: bool,
     default: f64,
-    unit: &'static str,
+    /// Its unit in SI, and as declared.
+    units: [&'static str; 2],
 }
 
 /// The option or parameter called `name`; of a family or row named without index its first member.
@@ -257,13 +270,13 @@ fn setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Result<Setti
     let spec = entry.mechanism.spec();
     let first = || Some(&spec.params[*spec.parameter_indices(name).ok()?.first()?]);
     let option = offered.find(|o| o.name == name);
-    let option = option.map(|o| (true, o.default, o.unit));
-    let found = option.or_else(|| first().map(|p| (false, p.default, p.unit)));
-    let (option, default, unit) = found.ok_or_else(|| unknown_setting(entry, name, start))?;
+    let option = option.map(|o| (true, o.default, [o.unit, o.written]));
+    let found = option.or_else(|| first().map(|p| (false, p.default, [p.unit, p.written])));
+    let (option, default, units) = found.ok_or_else(|| unknown_setting(entry, name, start))?;
     Ok(Setting {
         option,
         default,
-        unit,
+        units,
     })
 }
 

@@ -87,7 +87,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let first = &plan.members[0].start;
     let ways = first.ready(entry).ok();
     let ways = ways.map_or(Vec::new(), |ready| first.other_ways(&ready));
-    ways::tell(args.runs.angles(entry).into_iter().chain(ways));
+    ways::tell(args.runs.bare(entry).into_iter().chain(ways));
     let head = plan.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;

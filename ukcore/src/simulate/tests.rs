@@ -46,6 +46,7 @@ const fn param(name: &'static str, default: f64) -> ParamSpec {
         doc,
         default,
         unit,
+        written: "",
     }
 }
 

@@ -44,7 +44,10 @@ pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &s
     for family in &model.params {
         let field = &family.name;
         let text = documented(&family.docs, format!("Parameter `{field}`."));
-        let unit = |i: &usize| system.units.get(*i).filter(|unit| !unit.is_empty());
+        let unit = |i: &usize| {
+            let unit = system.units.get(*i).map(|unit| &unit.si);
+            unit.filter(|unit| !unit.is_empty())
+        };
         let docs = doc(&in_unit(text, family.members.iter().find_map(unit)));
         let number = |i: &usize| float(system.defaults.get(*i).copied().unwrap_or(f64::NAN));
         let numbers: Vec<TokenStream> = family.members.iter().map(number).collect();
@@ -73,7 +76,7 @@ pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &s
 pub(super) fn start(decl: &Declaration, system: &System) -> Option<TokenStream> {
     let name = &decl.name;
     let starts = system.starts.iter().map(|start| {
-        let option = |o: &OptionValue| match o.unit.as_str() {
+        let option = |o: &OptionValue| match o.unit.si.as_str() {
             "" => format!("`{}`", o.name),
             unit => format!("`{}` in {unit}", o.name),
         };

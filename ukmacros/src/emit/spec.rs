@@ -4,7 +4,7 @@ use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
 use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, Rotation, Solve, Structure};
-use crate::expr::{Block, Drawing, Kind, OutputValue, StartValue, System};
+use crate::expr::{Block, Drawing, Kind, NamedUnit, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -24,8 +24,10 @@ pub(super) fn spec(
     let params = model.param_elements.iter().enumerate().map(|(i, e)| {
         let (name, docs) = (&e.name, model.params[e.family].docs.join(" "));
         let default = float(system.defaults[i]);
-        let unit = system.units.get(i).map_or("", String::as_str);
-        quote! { ukcore::ParamSpec { name: #name, doc: #docs, default: #default, unit: #unit } }
+        let NamedUnit { si, written } = system.units.get(i).cloned().unwrap_or_default();
+        quote! {
+            ukcore::ParamSpec { name: #name, doc: #docs, default: #default, unit: #si, written: #written }
+        }
     });
     let coords = model.coord_elements.iter().map(|e| &e.name);
     let units = model.coord_elements.iter().filter(|_| model.units);
@@ -85,8 +87,10 @@ fn start(start: &StartValue) -> TokenStream {
     let (name, doc) = (&start.name, start.docs.join(" "));
     let options = start.options.iter().map(|option| {
         let (name, doc, default) = (&option.name, option.docs.join(" "), float(option.default));
-        let unit = &option.unit;
-        quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: #unit } }
+        let NamedUnit { si, written } = &option.unit;
+        quote! {
+            ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: #si, written: #written }
+        }
     });
     let duration = match start.until {
         Some(until) => float(until),

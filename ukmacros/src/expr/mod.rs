@@ -22,6 +22,6 @@ pub(crate) use jet::Jet;
 #[cfg(test)]
 pub(crate) use lower::vocabulary;
 pub(crate) use lower::{
-    Constraint, ConstraintRef, Drawing, Kind, OptionValue, OutputValue, StartValue, System, lower,
-    units,
+    Constraint, ConstraintRef, Drawing, Kind, NamedUnit, OptionValue, OutputValue, StartValue,
+    System, lower, units,
 };

@@ -65,7 +65,7 @@ fn a_mechanism_is_listed_with_its_starts() {
     for part in [
         "start released (default), for 10 s: let go with the cart at rest\n",
         "angle = 50 deg          Angle of the rod from the vertical\n",
-        "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
+        "parameters big = 2 kg, m = 1 kg, l = 500 mm, k = 40 N/m,",
     ] {
         assert!(list.contains(part), "{part} in {list}");
     }
@@ -357,8 +357,10 @@ fn ways_as_near_are_noted() {
         told,
     );
     // What `list` has in degrees is not meant to be 45 rad.
-    let told = "`angle` is 45 rad, as bare numbers are; for degrees write `angle=45deg`\n";
+    let told = "`angle` is 45 rad, as bare numbers are; in deg write `angle=45deg`\n";
     noted("run cart --until 0 --set angle=45", told);
+    let lengths = "`l` is 250 m, as bare numbers are; in mm write `l=250mm`\n";
+    noted("run cart --until 0 --set l=250", lengths);
     noted(
         &format!("sweep cart --until 0 --set angle=45,50 --out {path}s"),
         told,

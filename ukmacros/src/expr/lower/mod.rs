@@ -21,7 +21,8 @@ mod value;
 mod vectors;
 
 pub(crate) use system::{
-    Constraint, ConstraintRef, Drawing, Kind, OptionValue, OutputValue, StartValue, System,
+    Constraint, ConstraintRef, Drawing, Kind, NamedUnit, OptionValue, OutputValue, StartValue,
+    System,
 };
 pub(crate) use units::units;
 #[cfg(test)]

@@ -13,8 +13,8 @@ pub(crate) struct System {
     pub(crate) constants: Vec<f64>,
     /// Default of each parameter.
     pub(crate) defaults: Vec<f64>,
-    /// Unit of each parameter in SI; empty where none is known, none at all where none is declared.
-    pub(crate) units: Vec<String>,
+    /// Unit of each parameter; empty where none is known, none at all where none is declared.
+    pub(crate) units: Vec<NamedUnit>,
     /// Unit of each constraint's multiplier in SI; empty where none is known, none at all where none is declared.
     pub(crate) efforts: Vec<String>,
     /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
@@ -134,8 +134,17 @@ pub(crate) struct OptionValue {
     pub(crate) name: String,
     pub(crate) docs: Vec<String>,
     pub(crate) default: f64,
-    /// Its unit in SI; empty where none is known.
-    pub(crate) unit: String,
+    /// Empty where none is known.
+    pub(crate) unit: NamedUnit,
+}
+
+/// The unit of a default.
+#[derive(Clone, Default)]
+pub(crate) struct NamedUnit {
+    /// In SI.
+    pub(crate) si: String,
+    /// As it is written, where numbers of it are not in SI; else empty.
+    pub(crate) written: String,
 }
 
 /// What is said of a coordinate.

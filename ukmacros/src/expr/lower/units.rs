@@ -5,14 +5,14 @@
 //! `[0.3, 0]`, `let g = 9.81`) it may be of anything. Units of what the language itself knows, such as those of time and of the coordinates
 //! of bodies, count against those that are declared alone: where none are declared nothing is refused.
 
-use super::{System, lower_with};
+use super::{NamedUnit, System, lower_with};
 use crate::diag::Diagnostics;
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id, Node, Symbol};
 use crate::model::Model;
 use crate::parse::{Declaration, Expr, ExprKind};
 use std::collections::HashMap;
-use ukunits::Dimension;
+use ukunits::{Dimension, Unit};
 
 /// What is known of a value's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
     let params = model.param_elements.iter().zip(params);
     let params = params.map(|(element, measured)| match &element.default {
         Some(preset) => measured.unit(&preset.value),
-        None => String::new(),
+        None => NamedUnit::default(),
     });
     system.units = params.collect();
     let efforts = (0..system.constraints.len()).map(|row| match rows.get(row) {
@@ -101,11 +101,11 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
     }
 }
 
-/// The unit of this dimension that a number in `e` has, in SI.
-fn written(e: &Expr, dimension: Dimension) -> Option<String> {
+/// The unit of this dimension that a number in `e` has.
+fn written(e: &Expr, dimension: Dimension) -> Option<&Unit> {
     match &e.kind {
         ExprKind::Quantity(_, unit) => {
-            (unit.dimension().without_angle() == dimension).then(|| unit.si())
+            (unit.dimension().without_angle() == dimension).then_some(unit)
         }
         ExprKind::Neg(_) | ExprKind::Group(_) | ExprKind::Chain(..) | ExprKind::Vector(_) => {
             let mut parts = e.parts().into_iter();
@@ -134,14 +134,24 @@ impl Measured {
     }
 
     /// The unit in SI of a number of it, whose default is written as this.
-    pub(super) fn unit(self, default: &Expr) -> String {
+    pub(super) fn unit(self, default: &Expr) -> NamedUnit {
         let Known(dimension, true) = self else {
-            return String::new();
+            return NamedUnit::default();
         };
-        written(default, dimension).unwrap_or_else(|| match dimension {
-            Dimension::NUMBER => String::new(),
-            other => other.to_string(),
-        })
+        match written(default, dimension) {
+            Some(unit) => NamedUnit {
+                si: unit.si(),
+                written: match unit.is_coherent() {
+                    true => String::new(),
+                    false => unit.to_string(),
+                },
+            },
+            None if dimension == Dimension::NUMBER => NamedUnit::default(),
+            None => NamedUnit {
+                si: dimension.to_string(),
+                written: String::new(),
+            },
+        }
     }
 
     fn power(self, exponent: f64) -> Self {
