@@ -45,8 +45,13 @@ enum Home {
 
 /// What a part is good for.
 enum Meaning {
-    /// Rows, one after the other, and the names of those of a joint that has several.
-    Rows(&'static [&'static str], &'static str),
+    /// Rows, one after the other, and the names of those of a joint that has several; and along what the first ones push q for a multiplier
+    /// of 1, where that is not along the axes.
+    Rows(
+        &'static [&'static str],
+        &'static str,
+        &'static [&'static str],
+    ),
     /// A term of V.
     Energy(&'static str),
     /// What has this velocity is pushed by this force.
@@ -88,55 +93,55 @@ macro_rules! parts {
 }
 
 parts! {
-    "pin" Plane (p: Point, q: Point) Rows(&["q - p"], "x y");
-    "weld" Plane (p: Point, q: Point, angle: Number["rad"] = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle");
+    "pin" Plane (p: Point, q: Point) Rows(&["q - p"], "x y", &[]);
+    "weld" Plane (p: Point, q: Point, angle: Number["rad"] = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle", &[]);
     "slider" Plane (p: Point, q: Point, d: Direction, angle: Number["rad"] = "0")
-        Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"], "normal angle");
-    "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"], "");
+        Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"], "normal angle", &["p.along(normal(d))"]);
+    "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"], "", &["p.along(normal(d))"]);
     "gear" Plane (a: Body, b: Body, r: Number, s: Number, carrier: Body = "ground")
-        Rows(&["r * (a.angle - carrier.angle) + s * (b.angle - carrier.angle)"], "");
+        Rows(&["r * (a.angle - carrier.angle) + s * (b.angle - carrier.angle)"], "", &[]);
     "rack" Plane (p: Point, q: Point, d: Direction, r: Number["m"])
-        Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"], "");
+        Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"], "", &["p.along(normalise(d))"]);
     "wheel" Plane (p: Point, q: Point, d: Direction, r: Number["m"]) Rows(&[
         "inner(p.along(normal(d)), q - p) - r",
         "inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)",
-    ], "normal rolling");
-    "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"], "");
-    "rod" Both (p: Point, q: Point, l: Length["m"]) Rows(&["sq(q - p) - sq(l)"], "");
-    "ball" Space (p: Point, q: Point) Rows(&["q - p"], "x y z");
+    ], "normal rolling", &["p.along(normal(d))", "p.along(normalise(d))"]);
+    "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"], "", &[]);
+    "rod" Both (p: Point, q: Point, l: Length["m"]) Rows(&["sq(q - p) - sq(l)"], "", &["2 * (q - p)"]);
+    "ball" Space (p: Point, q: Point) Rows(&["q - p"], "x y z", &[]);
     "hinge" Space (p: Point, q: Point, u: Direction, w: Direction = "u")
-        Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"], "x y z tilt0 tilt1");
+        Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"], "x y z tilt0 tilt1", &[]);
     "universal" Space (p: Point, q: Point, u: Direction, w: Direction)
-        Rows(&["q - p", "inner(p.along(normalise(u)), q.along(normalise(w)))"], "x y z cross");
+        Rows(&["q - p", "inner(p.along(normalise(u)), q.along(normalise(w)))"], "x y z cross", &[]);
     "cylinder" Space (p: Point, q: Point, u: Direction, w: Direction = "u") Rows(&[
         "inner(p.along(normals(u)[0]), q - p)",
         "inner(p.along(normals(u)[1]), q - p)",
         "inner(p.along(normals(u)[0]), q.along(normalise(w)))",
         "inner(p.along(normals(u)[1]), q.along(normalise(w)))",
-    ], "n0 n1 tilt0 tilt1");
+    ], "n0 n1 tilt0 tilt1", &["p.along(normals(u)[0])", "p.along(normals(u)[1])"]);
     "slider" Space (p: Point, q: Point, u: Direction, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
         "inner(p.along(normals(u)[0]), q - p)",
         "inner(p.along(normals(u)[1]), q - p)",
         "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
         "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
-    ], "n0 n1 xy yz zx");
+    ], "n0 n1 xy yz zx", &["p.along(normals(u)[0])", "p.along(normals(u)[1])"]);
     "weld" Space (p: Point, q: Point, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
         "q - p",
         "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
         "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
-    ], "x y z xy yz zx");
+    ], "x y z xy yz zx", &[]);
     "drive" Space (a: Body, b: Body, u: Direction, angle: Number["rad"])
-        Rows(&["inner(a.along(cos(angle) * normals(u)[1] - sin(angle) * normals(u)[0]), b.along(normals(u)[0]))"], "");
+        Rows(&["inner(a.along(cos(angle) * normals(u)[1] - sin(angle) * normals(u)[0]), b.along(normals(u)[0]))"], "", &[]);
     "screw" Space (p: Point, q: Point, u: Direction, lead: Number["m"]) Rows(&[
         "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
-    ], "");
-    "disc" Space (q: Point, u: Direction, r: Number["m"]) Rows(&["q[2] - r * sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1]))"], "");
+    ], "", &["p.along(normalise(u))"]);
+    "disc" Space (q: Point, u: Direction, r: Number["m"]) Rows(&["q[2] - r * sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1]))"], "", &["[0, 0, 1]"]);
     "rolls" Space (q: Point, u: Direction, r: Number["m"]) Rows(&[
         "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
         "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
-    ], "x y");
+    ], "x y", &[]);
     "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
     "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
@@ -219,7 +224,7 @@ impl<'m> Lowering<'m> {
         let Some((part, inner)) = self.part_of(name, args, env) else {
             return Value::Error;
         };
-        let Meaning::Rows(texts, names) = part.meaning else {
+        let Meaning::Rows(texts, names, pushes) = part.meaning else {
             let message = format!("`{name}` acts with a force; it stands under `forces`");
             return self.error(name.span(), message);
         };
@@ -246,7 +251,13 @@ impl<'m> Lowering<'m> {
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         self.rim(part.name, e.loc, &inner);
-        let load = self.load(&inner);
+        let mut load = self.load(&inner);
+        // The place of q follows from that of the body where the body has one of its own.
+        if let Some(load) = load.as_mut().filter(|load| load.is_hung()) {
+            let pushes = pushes.iter();
+            let pushes = pushes.map(|text| self.written(text, e.loc, &inner).entries().to_vec());
+            load.pushes = pushes.collect();
+        }
         Value::Joint(Rc::new(Joint { rows, names, load }))
     }
 

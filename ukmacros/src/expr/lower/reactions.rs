@@ -35,9 +35,17 @@ pub(super) struct Load {
     sign: f64,
     /// The point that the force acts at, and about which the moment is taken, in axes of the ground; none where there is no force.
     at: Option<Vec<Id>>,
+    /// What the first rows push with for a multiplier of 1, for a body whose place follows from other coordinates; none where they do along
+    /// the axes.
+    pub(super) pushes: Vec<Vec<Id>>,
 }
 
 impl Load {
+    /// Whether the place of the body follows from other coordinates.
+    pub(super) fn is_hung(&self) -> bool {
+        self.centre.is_empty()
+    }
+
     /// Of a joint of `first` and `second`, unless both are of the ground.
     pub(super) fn between(
         first: Option<&Frame>,
@@ -57,6 +65,7 @@ impl Load {
             },
             sign,
             at,
+            pushes: Vec::new(),
         })
     }
 }
@@ -138,7 +147,7 @@ impl<'m> Lowering<'m> {
         };
         match row {
             row if name == "moment" => self.moment(&text, row, arg),
-            None => self.whole(&text, arg),
+            None => self.whole(&text),
             Some(row) => Value::Scalar(self.graph.symbol(Symbol::Multiplier(row))),
         }
     }
@@ -209,7 +218,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// The force of a joint between points on its second body; of any other constraint its multipliers, in the shape of its equation.
-    fn whole(&mut self, text: &str, arg: &Expr) -> Value {
+    fn whole(&mut self, text: &str) -> Value {
         let Some(Known {
             rows,
             shape,
@@ -224,7 +233,13 @@ impl<'m> Lowering<'m> {
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
         let load = load.clone().filter(|load| load.at.is_some());
-        let Some(Load { centre, sign, .. }) = load else {
+        let Some(Load {
+            centre,
+            sign,
+            pushes,
+            ..
+        }) = load
+        else {
             let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
@@ -235,13 +250,23 @@ impl<'m> Lowering<'m> {
             return Value::vector(components);
         }
         if centre.is_empty() {
-            let row = names.first().copied().unwrap_or("x");
-            let message = format!(
-                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows, such as `reaction({text}.{row})`"
-            );
-            return self.error(arg.loc, message);
+            return Value::vector(self.pushed(&pushes, &rows));
         }
         Value::vector(self.generalised(&centre, sign, &rows))
+    }
+
+    /// The force of these rows, the first of which push so.
+    fn pushed(&mut self, pushes: &[Vec<Id>], rows: &Range<usize>) -> Vec<Id> {
+        let dimensions = pushes.first().map_or(0, Vec::len);
+        let along = (0..dimensions).map(|k| {
+            let terms = rows.clone().zip(pushes).map(|(row, push)| {
+                let multiplier = self.graph.symbol(Symbol::Multiplier(row));
+                (1.0, self.graph.mul(push[k], multiplier))
+            });
+            let terms: Vec<(f64, Id)> = terms.collect();
+            self.graph.sum(&terms)
+        });
+        along.collect()
     }
 
     /// The generalised forces of these rows along `coordinates`, times `sign`.
