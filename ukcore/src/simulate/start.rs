@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
 use crate::measure::Measure;
+use crate::mechanism::Prepared;
 use crate::solver::Solver;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
@@ -92,15 +93,14 @@ impl Simulation {
         let mech = &self.mechanism;
         start.check(mech)?;
         let State { t, q, v } = start;
-        check_angles(spec, &q)?;
+        check_angles(mech, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
         let measure = Measure::at(mech, t, [&new_q, &v]);
         let mut size = measure.size(&q).max(measure.size(&v));
         // Where nothing is known of the mechanism, the unit is what things are compared with.
-        let most = measure
-            .reach(mech, t, [&new_q, &v], size, self.tolerance)
-            .unwrap_or(1.0);
+        let reach = measure.reach(mech, t, [&new_q, &v], size, self.tolerance);
+        let most = reach.unwrap_or(1.0);
         if size > 0.0 && size < most {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
             size = size.max(projector.length(t, &new_q, &v));
@@ -109,8 +109,12 @@ impl Simulation {
         let size = if size > 0.0 { size.min(most) } else { most };
         let speed = self.speed(size, &measure, [&new_q, &v], t_end - t);
         let tolerance = self.tolerance_of([size, speed], &measure);
-        let of_q = &tolerance.floors[..q.len()];
-        let absolute: Vec<f64> = of_q.iter().map(|x| tolerance.relative * x).collect();
+        // Beside what the equations know of lengths less than its rounding is nothing, and may be all that assembly has left of zeros.
+        let nothing = f64::EPSILON * reach.unwrap_or(0.0);
+        let floors = tolerance.floors.iter().zip(&measure.scale);
+        let allowed =
+            |(floor, unit): (&f64, &f64)| nothing.mul_add(*unit, tolerance.relative * floor);
+        let absolute: Vec<f64> = floors.map(allowed).collect();
         let absolute = &absolute[..];
         if !near([&q, &new_q], absolute, &measure) {
             let residual = Residuals::at(mech, t, &q, &v).position;
@@ -159,21 +163,25 @@ impl Simulation {
     }
 }
 
-/// An error where a coordinate in a sine, cosine or tangent of the equations is so large that it is rounded by more than [`BLUR`].
+/// An error where a coordinate in a sine, cosine or tangent of the equations, or a parameter added to something there, is so large that
+/// it is rounded by more than [`BLUR`].
 /// An error control relative to the coordinate does not see it.
-fn check_angles(spec: &Spec, q: &[f64]) -> Result<(), Error> {
-    let rounding = |i: usize| q[i].abs() * f64::EPSILON;
-    let blurred = |i: &usize| rounding(*i) > BLUR;
-    let Some(i) = spec.structure.angles.iter().copied().find(blurred) else {
-        return Ok(());
-    };
-    let (name, x, rounding) = (spec.coords[i], q[i], rounding(i));
-    Err(Error::invalid(
-        "start",
-        format!(
+fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
+    let spec = mech.spec();
+    let refuse = |what, name, x: f64| {
+        let rounding = x.abs() * f64::EPSILON;
+        let reason = format!(
             "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
-        ),
-    ))
+        );
+        match rounding > BLUR {
+            true => Err(Error::invalid(what, reason)),
+            false => Ok(()),
+        }
+    };
+    let mut angles = spec.structure.angles.iter();
+    angles.try_for_each(|i| refuse("start", spec.coords[*i], q[*i]))?;
+    let (mut phases, values) = (spec.structure.phases.iter(), mech.parameters());
+    phases.try_for_each(|i| refuse("mechanism", spec.params[*i].name, values[*i]))
 }
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.

@@ -26,6 +26,8 @@ pub struct Structure {
     /// Coordinates that are angles: those in the argument of a sine, cosine or tangent of M, Q, c, A or b, with no unit but rad where units
     /// are declared, else with no factor there but numbers.
     pub angles: &'static [usize],
+    /// Parameters that are added to something in the argument of a sine, cosine or tangent of M, Q, c, A or b.
+    pub phases: &'static [usize],
     /// No explicit time anywhere.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
@@ -238,6 +240,7 @@ impl Structure {
         jacobian_fixed: &[],
         massless: &[],
         angles: &[],
+        phases: &[],
         scleronomic: false,
         nonideal: false,
         loaded: false,

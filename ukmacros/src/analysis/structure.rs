@@ -18,6 +18,8 @@ pub(crate) struct Structure {
     pub(crate) massless: Vec<usize>,
     /// Coordinates that are angles: in the argument of a sine, cosine or tangent of the equations.
     pub(crate) angles: Vec<usize>,
+    /// Parameters that are added to something in such an argument.
+    pub(crate) phases: Vec<usize>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
     /// The non-ideal force depends on reactions.
@@ -58,6 +60,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
     let lagrangian = mass_constant || system.kinetic.is_some();
     let forced: Vec<usize> = (0..n).filter(|i| !lagrangian || declared(i)).collect();
     let conservative = scleronomic && !nonideal && forced.is_empty() && homogeneous && quadratic;
+    let (angles, phases) = angles(dynamics, g, model);
     let mut structure = Structure {
         mass_diagonal,
         mass_constant,
@@ -65,7 +68,8 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         jacobian_driven,
         jacobian_fixed,
         massless,
-        angles: angles(dynamics, g, model),
+        angles,
+        phases,
         scleronomic,
         nonideal,
         loaded,
@@ -80,8 +84,9 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
 
 /// Coordinates in the argument of a sine, cosine or tangent of M, Q, c, A or b, unless within a function there that is no angle's: of
 /// sin(asin(x)) and cos(atan2(y, x)) none is an angle. Where units are declared these tell; where they are not a coordinate is an angle if
-/// the argument changes by a number times as much: x in sin(k x) is a length if k is one over a length.
-fn angles(d: &Dynamics, g: &Graph, model: &Model) -> Vec<usize> {
+/// the argument changes by a number times as much: x in sin(k x) is a length if k is one over a length. And parameters
+/// that are added to something in such an argument.
+fn angles(d: &Dynamics, g: &Graph, model: &Model) -> (Vec<usize>, Vec<usize>) {
     let matrices = d.mass.values().chain(d.jacobian.values());
     let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
     let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
@@ -90,13 +95,21 @@ fn angles(d: &Dynamics, g: &Graph, model: &Model) -> Vec<usize> {
     let calls = g.reachable(&roots).into_iter().filter(turning);
     let mut stack: Vec<Id> = calls.flat_map(|id| g.operands(id)).collect();
     let mut seen = HashSet::new();
-    let mut angles = BTreeSet::new();
+    let (mut angles, mut phases) = (BTreeSet::new(), BTreeSet::new());
     while let Some(id) = stack.pop() {
         if !seen.insert(id) {
             continue;
         }
         match *g.node(id) {
             Node::Symbol(Symbol::Coord(i)) => drop(angles.insert(i)),
+            Node::Sum(_, ref terms) => {
+                let terms = terms.iter().map(|(_, term)| *term);
+                phases.extend(terms.clone().filter_map(|term| match *g.node(term) {
+                    Node::Symbol(Symbol::Param(i)) => Some(i),
+                    _ => None,
+                }));
+                stack.extend(terms);
+            }
             Node::Call(Func::Abs | Func::Min | Func::Max, _) => stack.extend(g.operands(id)),
             Node::Call(..) => {}
             Node::Product(_) if !model.units => {}
@@ -106,7 +119,7 @@ fn angles(d: &Dynamics, g: &Graph, model: &Model) -> Vec<usize> {
     let units: Vec<_> = model.coord_elements.iter().map(|c| &c.unit).collect();
     let turns = |unit: &Unit| matches!(unit.si().as_str(), "" | "rad");
     angles.retain(|i| !model.units || units[*i].as_ref().is_none_or(turns));
-    angles.into_iter().collect()
+    (angles.into_iter().collect(), phases.into_iter().collect())
 }
 
 fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> {

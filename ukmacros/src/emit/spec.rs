@@ -143,6 +143,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         jacobian_fixed,
         massless,
         angles,
+        phases,
         scleronomic,
         nonideal,
         loaded,
@@ -154,6 +155,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
     let fixed = jacobian_fixed.iter().map(|(i, j)| pair(*i, *j));
     let massless = massless.iter().map(|i| number(*i));
     let angles = angles.iter().map(|i| number(*i));
+    let phases = phases.iter().map(|i| number(*i));
     let forced = forced.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
@@ -174,6 +176,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             jacobian_fixed: &[#(#fixed),*],
             massless: &[#(#massless),*],
             angles: &[#(#angles),*],
+            phases: &[#(#phases),*],
             scleronomic: #scleronomic,
             nonideal: #nonideal,
             loaded: #loaded,
