@@ -279,7 +279,7 @@ fn distance(a: &str, b: &str) -> usize {
 }
 
 /// Names with their residuals.
-fn named(constraints: &[(String, f64)]) -> String {
+pub(crate) fn named(constraints: &[(String, f64)]) -> String {
     let text = |(name, residual): &(String, f64)| format!("`{name}` ({residual:.3e})");
     let texts: Vec<String> = constraints.iter().map(text).collect();
     texts.join(", ")

@@ -228,7 +228,7 @@ impl Solver {
         }
         if self.dropping.is_uneven() && all_finite(out) {
             self.here.dynamics(&self.mechanism, at.0, at.1, at.2);
-            if self.is_even() {
+            if self.is_even(at.1) {
                 self.count();
                 return Ok(());
             }

@@ -27,13 +27,16 @@ impl Search {
         let mut mass = vec![0.0; n * n];
         mech.mass_matrix(guess.t, &guess.q, &mut mass);
         let inertia = |j: usize| Some(mass[j * n + j]).filter(|m| *m > 0.0 && m.is_finite());
-        let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
-        // Massless coordinates move as readily as the middling massive ones.
-        let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
-        // How readily each moves: 1/√M_jj.
-        let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
         let state = (guess.t, &guess.q[..], &guess.v[..]);
-        let ease = (0..n).map(ease).collect();
+        // How readily each moves: 1/√M_jj.
+        let ease = |manifold: &Manifold| -> Vec<f64> {
+            let measured = |j: usize| Some(inertia(j)?.sqrt() * manifold.unit(j));
+            let massive: Vec<f64> = (0..n).filter_map(measured).map(f64::ln).collect();
+            // Massless coordinates move as readily as the middling massive ones.
+            let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
+            let ease = |j: usize| manifold.unit(j) / measured(j).unwrap_or(typical);
+            (0..n).map(ease).collect()
+        };
         Search {
             manifold: Manifold::with_ease(mech, state, ease, held.to_vec()),
             untold: Vec::new(),

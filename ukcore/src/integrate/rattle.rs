@@ -17,7 +17,7 @@ use super::scheme::{Equations, Scheme};
 use super::stepper::Rates;
 use super::sums::keeping;
 use super::trouble::{Cause, Trouble};
-use crate::error::Error;
+use crate::error::{Error, named};
 
 /// γ = 1/(4 − ∛4).
 const GAMMA: f64 = 0.414_490_771_794_375_7;
@@ -79,7 +79,14 @@ impl Rattle {
         let problem = &mut *equations.problem;
         if let Err(error) = problem.project_along(t, &self.base, [q, &mut self.shift]) {
             let step = self.step.abs();
-            let reason = format!("is {step}, which is too long here: {error}");
+            let reason = match &error {
+                Error::OffConstraint { constraints, .. } => format!(
+                    "is {step}, which is too long here: from its start no way leads onto the constraints at its end; of them is left \
+                     (residual): {}; take a shorter one",
+                    named(constraints)
+                ),
+                other => format!("is {step}, which is too long here: {other}"),
+            };
             let error = Error::invalid("step", reason);
             return Err(Trouble::cause(equations.at(s, &self.end), error));
         }

@@ -143,7 +143,7 @@ impl Curve<'_> {
         }
         let ease = self.units.as_slice()[..n].to_vec();
         let held = self.fixed.iter().map(|(j, ..)| *j).collect();
-        let mut manifold = Manifold::with_ease(self.mech, (t, &q, &rest), ease, held);
+        let mut manifold = Manifold::with_ease(self.mech, (t, &q, &rest), |_| ease, held);
         let at = At::new(self.mech, Level::Position, t, &rest);
         if let Err(error) = manifold.project(&at, &mut q) {
             return Err(State { t, q, v: rest }.locate(error));

@@ -119,15 +119,16 @@ impl Newton<f64> {
 
 impl Manifold {
     /// One in which coordinates move as readily as `ease` says, and those `held` not at all. What makes coordinates of different units
-    /// comparable is taken from a state.
+    /// comparable is taken from a state before `ease` is asked.
     pub(crate) fn with_ease(
         mech: &Prepared,
         (t, q, v): (f64, &[f64], &[f64]),
-        ease: Vec<f64>,
+        ease: impl FnOnce(&Self) -> Vec<f64>,
         held: Vec<usize>,
     ) -> Self {
         let mut manifold = Manifold::new(mech);
         manifold.measure(mech, t, q, v);
+        let ease = ease(&manifold);
         let acceptance = &mut manifold.newton.acceptance;
         acceptance.inertial.clone_from(&ease);
         (acceptance.ease, acceptance.held) = (ease, held);

@@ -2,13 +2,15 @@
 //!
 //! q̈ = M⁻¹ (Q + Aᵀλ) of a light coordinate that constraints tie to heavy ones is what is left of terms that all but cancel: ε |Q|/m of it
 //! is rounding. In row c of A coordinate j has the part a_cj²/m_j of G_cc, in the same unit as all others of the row. Where those of some
-//! inertia make up all but [`SHARE`] of it, and others the rest, what these do is lost in the rounding of those.
+//! inertia make up all but [`SHARE`] of it, and others the rest, what these do is lost in the rounding of those. Of a quaternion, which has
+//! no inertia along itself, the turns about the axes of its body stand for the coordinates.
 //!
 //! A part may vanish at single states, as that of a crank in line with its rod: so a row is even once it was so at one state, with
 //! parameters as they are. What rounding is then at such states, it is at all.
 
 use super::Solver;
 use crate::mechanism::Evaluated;
+use crate::spec::Spec;
 
 /// The least part of a row that is not lost: ε over it is what accelerations are met to.
 const SHARE: f64 = 1e-4;
@@ -37,25 +39,61 @@ impl Light {
         self.even.fill(false);
     }
 
-    /// Takes the rows as they are in `here`; whether all have been even at some state.
-    fn look(&mut self, here: &Evaluated) -> bool {
-        let n = here.force.len();
-        let rows = here.rows();
+    /// Takes the rows as they are in `here`, at the coordinates `q`; whether all have been even at some state.
+    fn look(&mut self, spec: &Spec, here: &Evaluated, q: &[f64]) -> bool {
+        let (n, m) = (q.len(), here.rhs.len());
         let mut all = true;
         for (c, even) in self.even.iter_mut().enumerate() {
-            if *even {
+            // A quaternion's own length ties it to nothing.
+            if *even || spec.structure.solve.turned.contains(&c) {
                 continue;
             }
+            let (a, mass) = (
+                |j: usize| here.jacobian[j * m + c],
+                |i: usize, j: usize| here.mass[i * n + j],
+            );
             let parts = &mut self.parts;
             parts.clear();
-            let diagonal = here.mass.iter().step_by(n + 1);
-            let entries = diagonal.zip(rows.row(c)).filter(|(_, a)| *a != 0.0);
-            parts.extend(entries.map(|(m, a)| (*m, a / m * a)));
+            let is_turned =
+                |j: &usize| quaternions(spec).any(|first| (first..first + 4).contains(j));
+            let plain = (0..n).filter(|j| a(*j) != 0.0 && !is_turned(j));
+            parts.extend(plain.map(|j| (mass(j, j), a(j) / mass(j, j) * a(j))));
+            for first in quaternions(spec) {
+                for turn in turns(&q[first..]) {
+                    let along = |of: &dyn Fn(usize) -> f64| -> f64 {
+                        (0..4).map(|i| turn[i] * of(first + i)).sum()
+                    };
+                    let a = along(&a);
+                    if a != 0.0 {
+                        let inertia = along(&|i| along(&|j| mass(i, j)));
+                        parts.push((inertia, a / inertia * a));
+                    }
+                }
+            }
             *even = is_even(parts);
             all &= *even;
         }
         all
     }
+}
+
+/// The first coordinates of the quaternions whose turns the elimination has in their place.
+fn quaternions(spec: &Spec) -> impl Iterator<Item = usize> {
+    let entries = spec.structure.jacobian_pattern;
+    spec.structure.solve.turned.iter().filter_map(move |row| {
+        let mut columns = entries.iter().filter(|(c, _)| c == row).map(|(_, j)| *j);
+        let first = columns.next()?;
+        columns.eq(first + 1..first + 4).then_some(first)
+    })
+}
+
+/// The changes of the quaternion e by turns about the axes of its body.
+fn turns(e: &[f64]) -> [[f64; 4]; 3] {
+    [
+        [-e[1], e[0], e[3], -e[2]],
+        [-e[2], -e[3], e[0], e[1]],
+        [-e[3], e[2], -e[1], e[0]],
+    ]
 }
 
 /// Whether no part is lost in those of other inertias; `parts` have inertias in front, and are used up.
@@ -80,9 +118,10 @@ fn is_even(parts: &mut Vec<(f64, f64)>) -> bool {
 }
 
 impl Solver {
-    /// With the equations in `here`: whether the elimination last tried can be used as it is, inertias far apart or not.
-    pub(super) fn is_even(&mut self) -> bool {
-        if !self.dropping.is_uneven() || !self.light.look(&self.here) {
+    /// With the equations in `here`, at the coordinates `q`: whether the elimination last tried can be used as it is, inertias far apart or not.
+    pub(super) fn is_even(&mut self, q: &[f64]) -> bool {
+        let spec = self.mechanism.spec();
+        if !self.dropping.is_uneven() || !self.light.look(spec, &self.here, q) {
             return false;
         }
         self.dropping.even_out();
