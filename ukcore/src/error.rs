@@ -150,15 +150,16 @@ pub enum Error {
     },
     /// Rounding of accelerations makes more of a step than any motion could be told by.
     #[error(
-        "rounding makes {share:.0e} of the motion in one step here, most of it along `{coordinate}`: coordinates are near a place where \
-         they tell little of it, as two angles about axes that all but fall in line, forces all but cancel, or a mass all but vanishes; take \
-         other coordinates, or a looser tolerance, whose steps go over the place"
+        "rounding makes {share:.0e} of the motion in one step here, most of it along `{coordinate}`: {}",
+        rounded(*time)
     )]
     Rounding {
         /// The coordinate whose acceleration is known least.
         coordinate: String,
         /// The estimated error of the step, as a share of the motion.
         share: f64,
+        /// Rounding of the time, where that is most of it.
+        time: Option<f64>,
     },
     /// Steps became so small that the time does not tell their ends apart: so late it is known no better.
     #[error(
@@ -276,6 +277,18 @@ fn distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
+}
+
+/// Where the rounding of a step comes from, and what to do.
+fn rounded(time: Option<f64>) -> String {
+    match time {
+        Some(time) => format!(
+            "so late the time is known to {time:.1e}, in which what depends on it changes by so much; count it from a moment near the start"
+        ),
+        None => "coordinates are near a place where they tell little of it, as two angles about axes that all but fall in line, forces all \
+                 but cancel, or a mass all but vanishes; take other coordinates, or a looser tolerance, whose steps go over the place"
+            .to_owned(),
+    }
 }
 
 /// Names with their residuals.

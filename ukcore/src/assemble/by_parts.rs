@@ -51,6 +51,8 @@ pub(super) struct ByParts<'a> {
     parts: &'a [Part],
     /// How large coordinates are.
     extents: Vec<f64>,
+    /// A part was met whose solutions do not lie apart, as some of its rows follow from others.
+    pub(super) open: bool,
 }
 
 /// A solution of some parts.
@@ -107,7 +109,12 @@ impl Met {
 
     /// Whether no other one is expected, or so many are that they do not lie apart.
     fn seem_all(&self) -> bool {
-        self.degree == 0 && !self.once.contains(&true) || 2 * self.found.len() > ROUND
+        self.degree == 0 && !self.once.contains(&true) || self.are_many()
+    }
+
+    /// Whether they may not lie apart.
+    fn are_many(&self) -> bool {
+        2 * self.found.len() > ROUND
     }
 }
 
@@ -125,6 +132,7 @@ impl<'a> ByParts<'a> {
             at,
             guess,
             parts,
+            open: false,
         }
     }
 
@@ -317,8 +325,20 @@ impl<'a> ByParts<'a> {
                 break;
             }
         }
+        if met.are_many() && !self.lie_apart(part, &met.found) {
+            // The one next to the guess, as where there are fewer rows than unknowns.
+            self.open = true;
+            met.found.truncate(1);
+        }
         met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         met.found
+    }
+
+    /// Whether rows tell one of these solutions of `part` from all beside it.
+    fn lie_apart(&mut self, part: &Part, found: &[Found]) -> bool {
+        let manifold = &mut self.search.manifold;
+        let mut solutions = found.iter();
+        solutions.any(|found| manifold.determines(self.at, part, &found.x))
     }
 
     /// Whether a solution of `part` less than `distance` from the guess, or as far, is the only one there.

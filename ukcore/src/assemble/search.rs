@@ -78,7 +78,11 @@ impl Search {
         if at.level != Level::Position || parts.len() < 2 && !determined {
             return None;
         }
-        let (nearest, _) = ByParts::new(self, at, guess, &parts).found_nearest()?;
+        let mut by_parts = ByParts::new(self, at, guess, &parts);
+        let (nearest, _) = by_parts.found_nearest()?;
+        if by_parts.open && parts.len() < 2 {
+            return None;
+        }
         self.projected(at, nearest.x)
     }
 
@@ -96,6 +100,9 @@ impl Search {
         }
         let mut by_parts = ByParts::new(self, at, guess, &parts);
         let (nearest, others) = by_parts.found_near((times, none))?;
+        if by_parts.open {
+            return None;
+        }
         let mut ways = vec![self.projected(at, nearest.x)?];
         let others = others.into_iter();
         ways.extend(others.filter_map(|other| self.projected(at, other.x)));

@@ -32,6 +32,9 @@ const CLOSE: f64 = 1e-16;
 /// rest.
 const NEAR: f64 = 1.5e-8;
 
+/// What follows from other rows has this share of a singular value at most, at a place that is as near as [`NEAR`].
+const FLAT: f64 = 1e-6;
+
 /// In a constraint with lengths the rounding of so many terms adds up.
 const TERMS: f64 = 16.0;
 
@@ -179,6 +182,15 @@ impl Manifold {
         let mean = (readily.sum::<f64>() / self.ease().len().max(1) as f64).exp();
         let even = (0..self.ease().len()).map(|j| mean * self.unit(j));
         self.newton.acceptance.ease = even.collect();
+    }
+
+    /// Whether the rows of `part` determine all its unknowns beside the solution `x`.
+    pub(crate) fn determines(&mut self, at: &At<'_, f64>, part: &Part, x: &[f64]) -> bool {
+        self.newton.evaluate(at, x);
+        self.newton.weigh(at, x);
+        let values = Best::new(&self.newton, part, x).matrix.singular_values();
+        let (least, most) = (values.min(), values.max());
+        values.len() >= part.unknowns.len() && least > FLAT * most
     }
 
     /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each

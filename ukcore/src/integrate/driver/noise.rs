@@ -41,6 +41,8 @@ pub(super) struct Noise {
     /// The largest of it in any component, over what that is allowed at rest; and which one.
     most: f64,
     worst: usize,
+    /// Rounding of the time, where most of that is of it.
+    time: Option<f64>,
     /// The part of it, in the error norm, that the estimate of an error need not show.
     hidden: f64,
 }
@@ -82,7 +84,12 @@ impl Driver<'_> {
             return Err(Refusal::Inaccurate(error));
         }
         let coordinate = self.equations.problem.coordinate(self.noise.worst);
-        let error = Error::Rounding { coordinate, share };
+        let time = self.noise.time;
+        let error = Error::Rounding {
+            coordinate,
+            share,
+            time,
+        };
         let here = Sample::of(self.equations.course.now.t, self.scheme.start());
         Err(Refusal::Undecided(Box::new(Trouble::new(here, error))))
     }
@@ -112,12 +119,13 @@ impl Driver<'_> {
     pub(super) fn measure(&mut self, seldom: usize) {
         let Equations { course, .. } = &self.equations;
         let (s, attempts) = (course.now.s, course.attempts);
+        let ulp = f64::EPSILON * course.now.t.abs();
         if self.measured.is_none_or(|last| attempts < last + seldom) {
             return;
         }
         self.measured = Some(attempts);
         self.longest = course.h.abs();
-        let Ok([all, hidden]) = self.rounding(s) else {
+        let Ok([all, hidden, of_time]) = self.rounding(s) else {
             return;
         };
         let tolerance = &self.settings.tolerance;
@@ -130,6 +138,7 @@ impl Driver<'_> {
             most,
             hidden: self.norm(&hidden),
             worst,
+            time: (of_time[worst] > 0.5 * all[worst]).then_some(ulp),
         };
         if noise.own.is_finite() && most.is_finite() {
             self.noise = noise;
@@ -156,9 +165,9 @@ impl Driver<'_> {
         error_norm(still.chain(moved), &self.settings.tolerance)
     }
 
-    /// What rounding makes of the estimate of a step's error, in a unit of time; and which part of it does not show there, being the same
-    /// beside a state.
-    fn rounding(&mut self, s: f64) -> Result<[Vec<f64>; 2], Cause> {
+    /// What rounding makes of the estimate of a step's error, in a unit of time; which part of it does not show there, being the same beside
+    /// a state; and which part is of the time.
+    fn rounding(&mut self, s: f64) -> Result<[Vec<f64>; 3], Cause> {
         let y = self.scheme.start();
         let n = y.len() / 2;
         let (mut now, mut there) = (vec![0.0; n], vec![0.0; n]);
@@ -167,14 +176,14 @@ impl Driver<'_> {
         let hidden: Vec<f64> = now.iter().map(|x| blur * x.abs()).collect();
         let mut rounding = hidden.clone();
         if !self.explicit {
-            return Ok([rounding, hidden]);
+            return Ok([rounding, hidden, vec![0.0; n]]);
         }
         // Late in a run from a late start all that depends on time is known no better.
         let ulp = f64::EPSILON * self.equations.at(s, y).t.abs();
         (self.equations).acceleration(s + CLEARLY * ulp, y, &mut there)?;
         let pairs = now.iter().zip(&there);
         let of_time: Vec<f64> = pairs
-            .map(|(now, later)| (later - now).abs() / CLEARLY)
+            .map(|(now, later)| STAGES * (later - now).abs() / CLEARLY)
             .collect();
         let mut most = vec![0.0_f64; n];
         for moved in beside(y) {
@@ -191,7 +200,7 @@ impl Driver<'_> {
             unseen.for_each(|(most, carried)| *most = carried);
         }
         let all = rounding.iter_mut().zip(of_time.iter().zip(most));
-        all.for_each(|(all, (of_time, most))| *all += STAGES * of_time + most);
-        Ok([rounding, hidden])
+        all.for_each(|(all, (of_time, most))| *all += of_time + most);
+        Ok([rounding, hidden, of_time])
     }
 }
