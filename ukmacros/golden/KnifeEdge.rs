@@ -241,6 +241,7 @@ const _: () = {
                 jacobian_fixed: &[],
                 massless: &[],
                 angles: &[2],
+                phases: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -217,6 +217,7 @@ const _: () = {
                 jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[0],
                 angles: &[],
+                phases: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -215,6 +215,7 @@ const _: () = {
                 jacobian_fixed: &[],
                 massless: &[],
                 angles: &[],
+                phases: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

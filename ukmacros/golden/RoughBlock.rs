@@ -254,6 +254,7 @@ const _: () = {
                 jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[],
                 angles: &[],
+                phases: &[],
                 scleronomic: true,
                 nonideal: true,
                 loaded: false,

@@ -201,7 +201,13 @@ fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&
         2.. if sorted(name) == sorted(n) => 1,
         distance => distance,
     };
-    let (d, n) = names.into_iter().map(|n| (distance(n), n)).min()?;
+    let names: Vec<&str> = names.into_iter().collect();
+    let (d, n) = names.iter().map(|n| (distance(n), *n)).min()?;
     let length = n.chars().count().max(name.chars().count());
-    (2 * d < length || d == 1 && length == 2).then_some(n)
+    let alike = 2 * d < length || d == 1 && length == 2;
+    // `cosine` is more than `cos`.
+    let shorter = names
+        .into_iter()
+        .filter(|n| n.len() > 2 && name.starts_with(n));
+    alike.then_some(n).or(shorter.max_by_key(|n| n.len()))
 }

@@ -298,11 +298,13 @@ fn projection(mech: &Prepared, state: &State, random: &mut Random, found: &mut F
     }
     let mut projector = Projector::new(mech);
     let size = largest(&state.q).max(projector.length(state.t, &state.q, &state.v));
+    let sizes = [size, size.max(largest(&state.v))];
     let mut failed = None;
     for off in OFF {
         let mut near = state.clone();
-        for x in near.q.iter_mut().chain(&mut near.v) {
-            *x += off * size * random.signed();
+        for (x, size) in [&mut near.q, &mut near.v].into_iter().zip(sizes) {
+            x.iter_mut()
+                .for_each(|x| *x += off * size * random.signed());
         }
         let mut projected = || -> Result<[Residuals; 2], Error> {
             let before = residuals(mech, &near)?;

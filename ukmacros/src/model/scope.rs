@@ -210,7 +210,7 @@ impl<'m> Scope<'m> {
                     let mut end = suggest(
                         &text,
                         names,
-                        "indices and ranges must be known at compile time",
+                        "indices and ranges are known at compile time; `for i in 0..3 { … }` around entries makes `i` one",
                     );
                     if ukunits::is_known(&text) {
                         end = "; a unit is written so where no constant, loop variable or argument has its name".to_owned();

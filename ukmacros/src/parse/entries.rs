@@ -1,6 +1,6 @@
 //! Entries of sections, each by itself.
 
-use super::expr::{Expr, TWO_SIGNS, location};
+use super::expr::{Expr, ExprKind, TWO_SIGNS, location};
 use super::grammar::{blocks, colon, coordinates, declared, docs, equals, expression, key, needed};
 use super::item::{
     Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
@@ -21,7 +21,13 @@ pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Re
     let _: Token![=] = needed(input, &key.name, || {
         format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name)
     })?;
-    let value = expression(input, diag)?;
+    let mut value = expression(input, diag)?;
+    if let (ExprKind::Vector(row), true) = (&value.kind, key.indices.is_empty()) {
+        let (name, count) = (&key.name, row.len());
+        let message = format!("a row of {count} parameters is declared `{name}[{count}] = […]`");
+        diag.error(value.loc, message);
+        value = Expr::error(value.loc);
+    }
     Ok(Entry { docs, key, value })
 }
 
@@ -211,7 +217,13 @@ pub(super) fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
 }
 
 pub(super) fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
-    expression(input, diag)
+    let e = expression(input, diag)?;
+    // A term on the same line: a forgotten sign would change what is meant without a word.
+    let goes_on = input.peek(syn::Ident) || input.peek(syn::token::Paren) || input.peek(syn::Lit);
+    if goes_on && !input.peek(Token![for]) && e.loc.end.end().line == input.span().start().line {
+        return Err(input.error("`*` is missing before this, or `,` if it is a term of its own"));
+    }
+    Ok(e)
 }
 
 /// `spring(p, q, k, l)`.

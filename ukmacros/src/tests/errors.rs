@@ -395,7 +395,9 @@ cases! {
     members_of_a_row_out_of_order: "coords { for i in 0..2 { for k in 0..2 { «p[k][i]» } } y } mass { y: 1.0 }" => "must be declared in order from `p[0][0]`";
     family_too_large_in_all: "coords { p[100][«100»] } mass { p: 1.0 }" => "up to 5000 compile";
     default_of_another_length: "params { k[3] = «[1.0, 2.0]» } coords { x } mass { x: k[0] }" => "expected a number or a vector of 3, found a vector of 2";
-    default_of_a_scalar: "params { k = «[1.0, 2.0]» } coords { x } mass { x: k }" => "expected a number, found a vector of 2";
+    default_of_a_scalar: "params { k = «[1.0, 2.0]» } coords { x } mass { x: k[0] }" => "a row of 2 parameters is declared `k[2] = […]`";
+    forgotten_product: "params { m = 1.0, g = 9.81 } coords { x, y } mass { x: m, y: m } potential { m * g «y» }" => "`*` is missing before this, or `,` if it is a term of its own";
+    more_than_a_function: "coords { x } mass { x: 1 } force { x: «cosine»(x) }" => "unknown function `cosine`; did you mean `cos`?";
     defaults_not_finite: "params { k[3] = «ln(-1.0)» } coords { x } mass { x: k[0] }" => "default of `k[0]` is not a finite number";
     family_of_values_with_a_gap: "coords { x } let { d[0] = x, d[2] = x } mass { x: 1.0 } force { x: norm(«d») }" => "`d` is no vector: its members are not of one shape with indices 0, 1, 2, …";
     family_of_values_of_two_shapes: "coords { x } let { d[0] = x, d[1] = [x, x] } mass { x: 1.0 } force { x: norm(«d») }" => "`d` is no vector";

@@ -76,7 +76,7 @@ fn units_are_handed_on() {
     );
     assert_eq!(
         found,
-        "m rad N/m   kg m^2 J N m/rad N m/rad mm  rad  kJ m |  |  |"
+        "m | mm rad | deg N/m | kN/mm  |   |  kg m^2 |  J |  N m/rad |  N m/rad |  mm  rad | deg  |  kJ m |  |  |"
     );
     let code = accepted(
         "params { /// Length\nl = 1 [mm] } coords { x [m] } mass { x: 1 } output { o [deg] = x / l }",

@@ -20,6 +20,15 @@ impl<'m> Lowering<'m> {
     ) -> Option<(&'m [usize], &'m [usize])> {
         let shape = &family.shape;
         if let Some(surplus) = indices.get(shape.len()) {
+            let first = family.members.first();
+            let element = first.and_then(|first| self.model.param_elements.get(*first));
+            let default = element
+                .filter(|e| *name == e.name)
+                .and_then(|e| e.default.as_ref());
+            if default.is_some_and(|default| matches!(default.value.kind, ExprKind::Error)) {
+                // Reported already.
+                return None;
+            }
             let message = match shape.len() {
                 0 => format!("`{name}` is not a family; write it without an index"),
                 1 => format!("members of `{name}` are numbers: they take one index"),
