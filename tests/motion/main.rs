@@ -22,6 +22,7 @@ mod passing;
 mod poles;
 mod redundant;
 mod redundant_loop;
+mod rounded;
 mod rows_in_time;
 mod scales;
 mod slots;

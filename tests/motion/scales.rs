@@ -119,6 +119,31 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A delta robot: arms of the tree, a platform by a quaternion, and rods between points of both.
+    Delta {
+        params { s = 1.0 }
+        let dir = |i| [cos(2 * PI * i / 3), sin(2 * PI * i / 3), 0];
+        let side = |i| [-sin(2 * PI * i / 3), cos(2 * PI * i / 3), 0];
+        bodies {
+            for i in 0..3 { spatial base[i] { mass: 0, inertia: [0, 0, 0] } }
+            for i in 0..3 { spatial arm[i] { mass: 0.5, inertia: 0.01 * sq(s) * [1, 1, 1], centre: [0.15 * s, 0, 0] } }
+            spatial top { mass: 1, inertia: 0.002 * sq(s) * [1, 1, 1.5] }
+        }
+        gravity { [0, 0, -9.81 * s] }
+        tree { for i in 0..3 {
+            foot[i]: weld(ground.at([0, 0, 0]), base[i].at([0, 0, 0]), rotz(2 * PI * i / 3))
+            h[i]: hinge(base[i].at([0.2 * s, 0, 0]), arm[i].at([0, 0, 0]), [0, 1, 0])
+        } }
+        holonomic { for i in 0..3 {
+            l[i]: rod(arm[i].at([0.3 * s, -0.04 * s, 0]), top.at(s * (0.05 * dir(i) - 0.04 * side(i))), 0.7 * s)
+            r[i]: rod(arm[i].at([0.3 * s, 0.04 * s, 0]), top.at(s * (0.05 * dir(i) + 0.04 * side(i))), 0.7 * s)
+        } }
+        start go { top.centre = [0.03 * s, 0.05 * s, -0.6 * s]; for i in 0..3 { h[i].angle near 0.3 } }
+        output { shape = h[0].angle }
+    }
+}
+
 const SCALES: [f64; 8] = [1e-9, 1e-6, 1e-3, 0.1, 10.0, 1e3, 1e6, 1e9];
 
 const RUNS: [(Method, f64); 6] = [
@@ -166,6 +191,7 @@ fn runs_take_the_same_steps() {
         (Points::default().prepared(), 2.0),
         (Cell::default().prepared(), 0.3),
         (BodyCell::default().prepared(), 0.3),
+        (Delta::default().prepared(), 0.3),
     ];
     for (mechanism, until) in cases {
         for how in RUNS {
@@ -175,6 +201,8 @@ fn runs_take_the_same_steps() {
                 let name = format!("{}, {s:e}, {how:?}", mechanism.spec().name);
                 let [a, b] = [one.work(), other.work()].map(|work| work.steps + work.rejected);
                 assert!(a.abs_diff(b) <= 2, "{name}: {a} and {b} attempts");
+                let [a_fallbacks, b_fallbacks] = [&one, &other].map(|run| run.work().fallbacks);
+                assert_eq!(a_fallbacks, b_fallbacks, "{name}");
                 let off = largest_difference(&shape(&one), &shape(&other));
                 // A step that rounding decides on changes the error, not its size.
                 let bound = if a == b { 1e-9 } else { 10.0 * how.1 };

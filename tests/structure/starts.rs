@@ -1,10 +1,10 @@
 //! Declared starts: what they hold, what they leave to the constraints, and what goes wrong.
 
 use tests::FourBar;
-use tests::{assert_all_close, assert_close};
+use tests::{Random, assert_all_close, assert_close, at_rest};
 use ukcore::assemble::residuals;
 use ukcore::model::StartOptions;
-use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State};
+use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State, assemble};
 
 ukcore::multibody! {
     /// A four-bar linkage of bodies, whose crank may be driven.
@@ -275,4 +275,89 @@ fn velocities_of_which_a_start_speaks_stay_where_they_may() {
             }
         }
     }
+}
+
+mod implied {
+    ukcore::multibody! { pub Once { coords { x, y } mass { x: 1, y: 1 } holonomic { a: x - y = 1 } start s { x near 0.7 } } }
+    ukcore::multibody! {
+        pub Twice { coords { x, y } mass { x: 1, y: 1 } holonomic { a: x - y = 1, b: 2 * x - 2 * y = 2 } start s { x near 0.7 } }
+    }
+    ukcore::multibody! {
+        /// A beam on cranks that all turn alike, one of them without mass.
+        pub Cranks {
+            coords { p[2], a, b, c }
+            mass { p: 5, a: 0.1, b: 0.1, c: 0.1 }
+            holonomic { u: p = 0.3 * [cos(a), sin(a)] v: p = 0.3 * [cos(b), sin(b)] w: p = 0.3 * [cos(c), sin(c)] }
+            start s { a near -1; b near -1; c near -1 }
+        }
+    }
+}
+
+/// A row that follows from others leaves a freedom, as where it is not written: the search decides, and nothing is another way beside it.
+#[test]
+fn implied_rows_change_no_start() {
+    let state = |mechanism: Prepared| {
+        let found = mechanism.start_with_alternatives("s", &StartOptions::new());
+        let found = found.expect("assembled");
+        assert!(found.alternatives.is_empty(), "{:?}", found.alternatives);
+        let alone = mechanism
+            .start("s", &StartOptions::new())
+            .expect("assembled");
+        assert_all_close("start", &alone.q, &found.state.q, 1e-12);
+        alone.q
+    };
+    let [once, twice] = [
+        implied::Once::default().prepared(),
+        implied::Twice::default().prepared(),
+    ]
+    .map(state);
+    assert_all_close("q", &twice, &once, 1e-12);
+    let cranks = state(implied::Cranks::default().prepared());
+    // All that is said is the same of each, and draws the beam that way.
+    assert!(cranks[2] < -0.3 && cranks[2] > -3.0, "{cranks:?}");
+    assert_all_close("cranks", &cranks[3..], &[cranks[2]; 2], 1e-12);
+}
+
+mod zeros {
+    ukcore::multibody! { pub Two { coords { x, y } mass { x: 1, y: 1 } holonomic { a: x = sin(y), b: sin(y) = 0 } } }
+    ukcore::multibody! { pub Product { coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { a: x = sin(y), b: sin(y) = 0, c: z = x * y } } }
+    ukcore::multibody! { pub Cubic { coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { a: x = y.powi(3), b: y = sin(z), c: tan(z) = 0 } } }
+    ukcore::multibody! {
+        pub Beside { coords { x, y, s } mass { x: 1, y: 1, s: 1 } force { s: 1 } holonomic { a: x = sin(y), b: sin(y) = 0 } }
+    }
+    ukcore::multibody! {
+        pub Sums { coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { a: x * (1 + y) = 0, b: sin(x + y) = x, c: z = x * y } }
+    }
+}
+
+/// What assembly leaves of zeros, some 1e-60, is a start.
+#[test]
+fn what_is_assembled_is_a_start() {
+    fn tries<M: Mechanism>() {
+        let mut random = Random::new(57);
+        for spread in [1e-8, 1e-6, 1e-4, 1e-2, 0.1] {
+            for _ in 0..60 {
+                let guess: Vec<f64> = random
+                    .vector(M::SPEC.n())
+                    .iter()
+                    .map(|x| spread * x)
+                    .collect();
+                let start = assemble(M::default(), &at_rest(&guess), &[]).expect("assembled");
+                for method in [Method::Dop853, Method::Radau5] {
+                    let run = Simulation::new(M::default())
+                        .start(start.clone())
+                        .method(method)
+                        .until(1e-3);
+                    run.unwrap_or_else(|e| {
+                        panic!("{}, {guess:?}: {:?}: {}", M::SPEC.name, start.q, e.error)
+                    });
+                }
+            }
+        }
+    }
+    tries::<zeros::Two>();
+    tries::<zeros::Product>();
+    tries::<zeros::Cubic>();
+    tries::<zeros::Beside>();
+    tries::<zeros::Sums>();
 }
