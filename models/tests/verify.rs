@@ -38,6 +38,19 @@ ukcore::multibody! {
 
 ukcore::verify!(Cart);
 
+ukcore::multibody! {
+    /// A dog after a hare, from where all coordinates are zero: what is off there is measured by velocities.
+    pub Pursuit {
+        params { u = 1.0, k = 1.5 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        nonholonomic { aim: dot(x) * (u * t - y) = dot(y) * (1 - x), speed: sq(dot(x)) + sq(dot(y)) = sq(k * u) }
+        start s { x = 0; y = 0; dot(x) = k * u; dot(y) = 0 }
+    }
+}
+
+ukcore::verify!(Pursuit);
+
 /// The cart with error number `KIND` in the code that is said to be emitted for it.
 #[derive(Clone, Default)]
 struct Planted<const KIND: usize>(Cart);

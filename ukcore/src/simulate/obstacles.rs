@@ -41,6 +41,9 @@ const STILL: f64 = 64.0 * f64::EPSILON;
 /// outweighs the forces.
 const FAST: f64 = 4.0;
 
+/// A coordinate without mass that accelerates so many times as much as all that has mass, beside what is allowed, is left by the constraints.
+const LEFT_ALONE: f64 = 1e3;
+
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
 ///
 /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which
@@ -439,9 +442,22 @@ pub(super) fn explain(
             }
             let n = q.len();
             let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
-            let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
+            let first = (0..n).max_by(|i, j| share(i).total_cmp(&share(j)));
             let name = |i: usize| mechanism.spec().coords[i].to_owned();
-            *fastest = first.map(|i| (name(i), acceleration[i]));
+            let massless = mechanism.spec().structure.massless;
+            let massive = (0..n).filter(|i| !massless.contains(i));
+            let most = massive.map(|i| share(&i)).fold(0.0, f64::max);
+            match first {
+                // All that has mass moves as before, and tells ever less of where this one is.
+                Some(i) if massless.contains(&i) && share(&i) > LEFT_ALONE * most => {
+                    trouble.error = Error::Underdetermined {
+                        coordinates: vec![name(i)],
+                        rank: n - 1,
+                        needed: n,
+                    };
+                }
+                _ => *fastest = first.map(|i| (name(i), acceleration[i])),
+            }
         }
     }
     let State { t, q, v } = &trouble.state;
