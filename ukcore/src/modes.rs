@@ -432,12 +432,17 @@ fn steady(
     for (i, (a, unit)) in accelerations.enumerate() {
         if (a / unit).abs() > REST * size {
             let name = mech.spec().coords[i];
-            return Err(Error::invalid(
-                "state",
-                format!(
-                    "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
-                ),
-            ));
+            let mut reason = format!(
+                "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
+            );
+            let turns = |row: &usize| {
+                let entries = mech.spec().structure.jacobian_pattern;
+                entries.contains(&(*row, i))
+            };
+            if mech.spec().structure.solve.turned.iter().any(turns) {
+                reason += ", as a quaternion of a body that spins does not: turn that by angles, such as those of a `tree`";
+            }
+            return Err(Error::invalid("state", reason));
         }
     }
     Ok(())

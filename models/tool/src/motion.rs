@@ -159,7 +159,7 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
         false => "",
     };
     number.ok_or_else(|| {
-        format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed{several}")
+        format!("a number from {SMALLEST_TOLERANCE:?} to below 1 is needed{several}")
     })
 }
 

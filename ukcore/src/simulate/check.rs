@@ -48,7 +48,7 @@ impl Simulation {
         if !(SMALLEST_TOLERANCE..1.0).contains(&self.tolerance) {
             let tolerance = self.tolerance;
             let reason =
-                format!("is {tolerance:?}, but {SMALLEST_TOLERANCE:.1e} to below 1 is allowed");
+                format!("is {tolerance:?}, but {SMALLEST_TOLERANCE:?} to below 1 is allowed");
             return invalid("tolerance", reason);
         }
         if !t_end.is_finite() {

@@ -3,7 +3,7 @@
 use super::dynamics::Dynamics;
 use super::sparsity::unmatched_rows;
 use crate::diag::{Diagnostics, is_same};
-use crate::expr::{Id, Kind, System};
+use crate::expr::{Graph, Id, Kind, Node, System};
 use crate::model::Model;
 use proc_macro2::Span;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -48,6 +48,9 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
             Kind::Nonholonomic if !uses.velocity => Some(format!(
                 "constraint `{name}` contains no velocity; move it under `holonomic`"
             )),
+            _ if are_squares(constraint.phi, g) => Some(format!(
+                "constraint `{name}` sets squares to 0, which have no slope there and so say nothing of the motion; set what is squared to 0"
+            )),
             _ if dynamics.row(row).next().is_none() => Some(format!(
                 "constraint `{name}` restricts no velocity: all its derivatives are zero; remove it"
             )),
@@ -65,6 +68,21 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
         seen.entry(key).or_insert(row);
     }
     repeated(system, &same, diag);
+}
+
+/// Whether `id` is a square, or a sum of squares of one sign.
+fn are_squares(id: Id, g: &Graph) -> bool {
+    match g.node(id) {
+        Node::Scale(_, of) | Node::Held(of) => are_squares(*of, g),
+        Node::Product(factors) => factors.iter().all(|(_, n)| *n > 0 && n % 2 == 0),
+        Node::Sum(constant, terms) => {
+            let one_sign = |sign: f64| terms.iter().all(|(c, _)| sign * c.get() > 0.0);
+            constant.get() == 0.0
+                && (one_sign(1.0) || one_sign(-1.0))
+                && terms.iter().all(|(_, term)| are_squares(*term, g))
+        }
+        _ => false,
+    }
 }
 
 /// Reports rows that are the `same` as others: once where all rows of a constraint are those of another. Joints share rows as a matter of

@@ -124,6 +124,9 @@ fn section(input: ParseStream<'_>, out: &mut Declaration, diag: &Diagnostics) ->
         }
         return Ok(());
     }
+    if input.peek(Token![,]) || input.peek(Token![;]) {
+        return Err(input.error("nothing stands between sections; remove this"));
+    }
     let keyword: Ident = input
         .parse()
         .map_err(|e| syn::Error::new(e.span(), format!("expected a section: {}", sections())))?;
@@ -299,6 +302,10 @@ pub(super) fn colon(input: ParseStream<'_>, name: &Ident) -> syn::Result<()> {
     if input.peek(Token![=]) && !input.peek(Token![==]) {
         let message =
             format!("here stands `:`, as in `{name}: 1.0`; `=` is for equations and defaults");
+        return Err(input.error(message));
+    }
+    if input.peek(syn::token::Paren) {
+        let message = format!("a member of a family is chosen in brackets: `{name}[0]: 1.0`");
         return Err(input.error(message));
     }
     needed(input, name, || {

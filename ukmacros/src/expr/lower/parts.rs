@@ -529,7 +529,19 @@ impl<'m> Lowering<'m> {
                 }
                 _ => describe(value.shape()),
             };
-            let message = format!("`{arg}` of {} is {expected}, found {found}", part.usage());
+            let hint = match (value, &e.kind) {
+                (Value::Point(_), _) if takes == Takes::Point => format!(
+                    "; bodies of this kind have points in {}",
+                    if flat { "the plane" } else { "space" }
+                ),
+                (_, ExprKind::Field(_, field)) if takes == Takes::Point && field == "centre" => {
+                    "; `centre` is a vector of the ground, and `at` takes the place within the body"
+                        .to_owned()
+                }
+                _ => String::new(),
+            };
+            let usage = part.usage();
+            let message = format!("`{arg}` of {usage} is {expected}, found {found}{hint}");
             self.error(e.loc, message);
             return false;
         }
