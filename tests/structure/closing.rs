@@ -243,7 +243,7 @@ ukcore::multibody! {
     Vanishing {
         coords { x, y }
         mass { x: 1, y: 1 }
-        holonomic { flat: sq(x) = 0, level: y = 1.0 }
+        holonomic { flat: x * sin(x) = 0, level: y = 1.0 }
     }
 }
 
