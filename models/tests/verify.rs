@@ -36,8 +36,6 @@ ukcore::multibody! {
     }
 }
 
-ukcore::verify!(Cart);
-
 ukcore::multibody! {
     /// A dog after a hare, from where all coordinates are zero: what is off there is measured by velocities.
     pub Pursuit {
@@ -49,7 +47,7 @@ ukcore::multibody! {
     }
 }
 
-ukcore::verify!(Pursuit);
+ukcore::verify!(Cart, Pursuit);
 
 /// The cart with error number `KIND` in the code that is said to be emitted for it.
 #[derive(Clone, Default)]

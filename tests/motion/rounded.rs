@@ -1,4 +1,4 @@
-//! Rounding that changes with no state: of phases, of large forces that cancel, and of a late time.
+//! Rounding that changes with no state: of phases, and of a late time.
 
 use tests::{assert_close, at, at_rest};
 use ukcore::{Mechanism, Method, Prepared, Simulation, State, Trajectory};
@@ -19,13 +19,18 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// A spring of 1 N/m as the difference of two forces.
-    Difference { params { c = 1e8 } coords { x } mass { x: 1 } force { x: (c + x) - (c + 2 * x) } }
+    /// Phases times numbers.
+    Scaled { params { fine = 0.0, coarse = 0.0 } coords { x } mass { x: 1 } force { x: -sin(x + 1e-9 * fine + 1e9 * coarse) } }
 }
 
 ukcore::multibody! {
-    /// The same by a cosine that is nearly 1, beside a coordinate without such forces.
-    Balance { params { f = 1e6 } coords { x, y } mass { x: 1, y: 1 } force { x: -x, y: f * cos(1e-3 * y) - f } }
+    /// Places and times far off, in which waves are long, and two angles that differ by one.
+    Wave {
+        params { x0 = 1.5e11 [m], k = 1e-9 [1/m], t0 = 2e11 [s], w = 1e-6 [rad/s], big = 1e11 [m], a = 100000000001.0 [rad], b = 1e11 [rad], f = 1 [N] }
+        coords { x [m] }
+        mass { x: 1 [kg] }
+        force { x: f * (sin(k * (x - x0)) + sin(w * (t - t0)) + sin(x / (big + x0)) + cos(a - b)) }
+    }
 }
 
 fn run(
@@ -66,6 +71,36 @@ fn phases_that_are_rounded_away_are_refused_by_name() {
         let start = at(&[0.1 * f64::cos(phase)], &[-f64::sin(phase)]);
         refused(drive.prepared(), start);
     }
+    // What is added counts by the angle that it is.
+    let refused_by =
+        |coarse: Scaled, start: State| Simulation::new(coarse).start(start).until(1.0).is_err();
+    assert!(refused_by(
+        Scaled {
+            fine: 0.0,
+            coarse: 1e5
+        },
+        at_rest(&[0.3])
+    ));
+    assert!(!refused_by(
+        Scaled {
+            fine: 1e11,
+            coarse: 0.0
+        },
+        at_rest(&[0.3])
+    ));
+    // Nor is a length or a time one, or what cancels before it is added.
+    let wave = Wave::default();
+    let run_on = |tolerance| {
+        let start = State {
+            t: 2e11,
+            ..at_rest(&[1.5e11])
+        };
+        Simulation::new(&wave)
+            .start(start)
+            .tolerance(tolerance)
+            .until(2e11 + 1.0)
+    };
+    assert!(run_on(1e-9).is_ok());
     // An exact number in a function of its own is as good as any other.
     let run = run(
         Alone { phase: 1e15 },
@@ -91,39 +126,6 @@ fn phases_that_are_known_are_taken_as_they_are() {
                 run.last().expect("an end").q[0]
             });
             assert_close("a", far, near, 1e-7);
-        }
-    }
-}
-
-/// As many evaluations as forces of 1 N take, times a few; not as many as a tolerance below the rounding of 1e8 N asks for.
-#[test]
-fn steps_are_not_refined_past_forces_that_cancel() {
-    for method in METHODS {
-        for tolerance in [1e-9, 1e-12, 1e-13, 1e-14] {
-            let run = run(
-                Difference::default(),
-                at_rest(&[1.0]),
-                (method, tolerance),
-                2.0,
-            );
-            let work = run.work();
-            assert!(
-                work.evaluations < 15_000,
-                "{method}, {tolerance:e}: {work:?}"
-            );
-            assert_close("x", run.last().expect("an end").q[0], 2.0_f64.cos(), 3e-7);
-            let run = self::run(
-                Balance::default(),
-                at_rest(&[1.0, 1.0]),
-                (method, tolerance),
-                2.0,
-            );
-            let work = run.work();
-            assert!(
-                work.evaluations < 15_000,
-                "{method}, {tolerance:e}: {work:?}"
-            );
-            assert_close("x", run.last().expect("an end").q[0], 2.0_f64.cos(), 2e-9);
         }
     }
 }

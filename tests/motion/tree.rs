@@ -499,13 +499,13 @@ fn momentum_of_floating_bodies_stays() {
 
 /// A body that hangs on a free one and is held by a joint, in a tree and with coordinates of its own.
 macro_rules! held {
-    ($($test:ident $tree:ident $own:ident $kind:ident $inertia:tt $hangs:ident($($ends:tt)*) { $($rows:tt)* } { $($rates:tt)* } $turned:tt $spatial:literal)*) => {$(
+    ($($test:ident $tree:ident $own:ident $n:literal $kind:ident $inertia:tt { $($hangs:tt)* } { $($rows:tt)* } { $($rates:tt)* } $turned:tt $spatial:literal)*) => {$(
         ukcore::multibody! {
             pub $tree {
-                const N: usize = 2;
+                const N: usize = $n;
                 params { u[3] = [1.0, 2.0, -2.0], w[3] = [-0.5, 0.3, 1.0], d[2] = [0.6, 0.8], r = 0.4, lead = 0.3 }
                 bodies { for i in 0..N { $kind link[i] { mass: 1 + i, inertia: $inertia } } }
-                tree { hang: $hangs($($ends)*) }
+                tree { $($hangs)* }
                 holonomic { $($rows)* }
                 nonholonomic { $($rates)* }
                 force { link[0].x: 0.3 * (u[0] + w[0]) + d[0] * r * lead - 2.0 }
@@ -518,10 +518,10 @@ macro_rules! held {
 
         ukcore::multibody! {
             pub $own {
-                const N: usize = 2;
+                const N: usize = $n;
                 params { u[3] = [1.0, 2.0, -2.0], w[3] = [-0.5, 0.3, 1.0], d[2] = [0.6, 0.8], r = 0.4, lead = 0.3 }
                 bodies { for i in 0..N { $kind link[i] { mass: 1 + i, inertia: $inertia } } }
-                holonomic { hang: $hangs($($ends)*) $($rows)* }
+                holonomic { $($hangs)* $($rows)* }
                 nonholonomic { $($rates)* }
                 force { link[0].x: 0.3 * (u[0] + w[0]) + d[0] * r * lead - 2.0 }
                 output { force = reaction(j) }
@@ -538,7 +538,7 @@ macro_rules! held {
                     continue;
                 };
                 let out = outputs::<$tree>(&$tree::default().prepared(), &state);
-                let (bodies, force) = out.split_at(2 * width);
+                let (bodies, force) = out.split_at($n * width);
                 let same = own(state.t, bodies);
                 let expected = outputs::<$own>(&$own::default().prepared(), &same);
                 assert!(expected.iter().any(|x| x.abs() > 1e-3), "{expected:?}");
@@ -551,26 +551,31 @@ macro_rules! held {
 }
 
 held! {
-    the_force_of_a_rod_on_a_body_of_the_tree HeldByRod HeldByRodOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_of_a_rod_on_a_body_that_the_first_hangs_on RodToRoot RodToRootOwn 3 planar 0.7
+        { for i in 1..N { hang[i]: pin(link[i - 1].at([0.3, -0.2]), link[i].at([0.1, 0.4])) } }
+        { j: rod(link[2].at([0.4, 0.2]), link[0].at([0.3, 0.5]), 1.2) } {} angle false
+    the_force_of_rolling_on_a_body_of_the_tree HeldByRolls HeldByRollsOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
+        { k: disc(link[1].at([0.4, 0.2, 0.1]), u, r) } { j: rolls(link[1].at([0.4, 0.2, 0.1]), u, r) } axes true
+    the_force_of_a_rod_on_a_body_of_the_tree HeldByRod HeldByRodOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: rod(ground.at([0.3, 0.5]), link[1].at([0.4, 0.2]), 1.2) } {} angle false
-    the_force_on_the_ground_of_a_rod_from_a_body_of_the_tree RodToGround RodToGroundOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_on_the_ground_of_a_rod_from_a_body_of_the_tree RodToGround RodToGroundOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: rod(link[1].at([0.4, 0.2]), ground.at([0.3, 0.5]), 1.2) } {} angle false
-    the_force_of_a_slot_on_a_body_of_the_tree HeldBySlot HeldBySlotOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_of_a_slot_on_a_body_of_the_tree HeldBySlot HeldBySlotOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: slot(ground.at([0.3, 0.5]), link[1].at([0.4, 0.2]), d) } {} angle false
-    the_force_of_a_slider_on_a_body_of_the_tree HeldBySlider HeldBySliderOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_of_a_slider_on_a_body_of_the_tree HeldBySlider HeldBySliderOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: slider(ground.at([0.3, 0.5]), link[1].at([0.4, 0.2]), d) } {} angle false
-    the_force_of_a_wheel_on_a_body_of_the_tree HeldByWheel HeldByWheelOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_of_a_wheel_on_a_body_of_the_tree HeldByWheel HeldByWheelOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: wheel(ground.at([0.3, 0.5]), link[1].at([0.4, 0.2]), d, r) } {} angle false
-    the_force_of_a_rack_on_a_body_of_the_tree HeldByRack HeldByRackOwn planar 0.7 pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4]))
+    the_force_of_a_rack_on_a_body_of_the_tree HeldByRack HeldByRackOwn 2 planar 0.7 { hang: pin(link[0].at([0.3, -0.2]), link[1].at([0.1, 0.4])) }
         { j: rack(ground.at([0.3, 0.5]), link[1].at([0.4, 0.2]), d, r) } {} angle false
-    the_force_of_a_strut_on_a_body_of_the_tree HeldByStrut HeldByStrutOwn spatial [0.5, 0.6, 0.7] ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3]))
+    the_force_of_a_strut_on_a_body_of_the_tree HeldByStrut HeldByStrutOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
         { j: rod(ground.at([0.3, 0.5, 0]), link[1].at([0.4, 0.2, 0.1]), 1.2) } {} axes true
-    the_force_of_a_cylinder_on_a_body_of_the_tree HeldByCylinder HeldByCylinderOwn spatial [0.5, 0.6, 0.7] ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3]))
+    the_force_of_a_cylinder_on_a_body_of_the_tree HeldByCylinder HeldByCylinderOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
         { j: cylinder(ground.at([0.3, 0.5, 0]), link[1].at([0.4, 0.2, 0.1]), u, w) } {} axes true
-    the_force_of_a_guide_on_a_body_of_the_tree HeldByGuide HeldByGuideOwn spatial [0.5, 0.6, 0.7] ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3]))
+    the_force_of_a_guide_on_a_body_of_the_tree HeldByGuide HeldByGuideOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
         { j: slider(ground.at([0.3, 0.5, 0]), link[1].at([0.4, 0.2, 0.1]), u) } {} axes true
-    the_force_of_a_screw_on_a_body_of_the_tree HeldByScrew HeldByScrewOwn spatial [0.5, 0.6, 0.7] ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3]))
+    the_force_of_a_screw_on_a_body_of_the_tree HeldByScrew HeldByScrewOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
         { k: cylinder(ground.at([0.3, 0.5, 0]), link[1].at([0.4, 0.2, 0.1]), u) } { j: screw(ground.at([0.3, 0.5, 0]), link[1].at([0.4, 0.2, 0.1]), u, lead) } axes true
-    the_force_of_a_disc_on_a_body_of_the_tree HeldByDisc HeldByDiscOwn spatial [0.5, 0.6, 0.7] ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3]))
+    the_force_of_a_disc_on_a_body_of_the_tree HeldByDisc HeldByDiscOwn 2 spatial [0.5, 0.6, 0.7] { hang: ball(link[0].at(u), link[1].at([0.1, 0.4, -0.3])) }
         { j: disc(link[1].at([0.4, 0.2, 0.1]), u, r) } {} axes true
 }

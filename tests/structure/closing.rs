@@ -243,7 +243,7 @@ ukcore::multibody! {
     Vanishing {
         coords { x, y }
         mass { x: 1, y: 1 }
-        holonomic { flat: x * sin(x) = 0, level: y = 1.0 }
+        holonomic { flat: x.powi(3) = 0, level: y = 1.0 }
     }
 }
 

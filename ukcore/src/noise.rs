@@ -105,22 +105,6 @@ impl Noise {
             pairs.for_each(|(out, a)| *out += a.bound() * x.abs());
         }
     }
-
-    /// That of M q̈ − Q − c − Aᵀλ, after that of A q̈ − b.
-    pub(crate) fn balance(&self, acceleration: &[f64], multipliers: &[f64], out: &mut [f64]) {
-        let terms = &self.terms;
-        for (j, out) in out.iter_mut().enumerate() {
-            *out = terms.force[j].bound() + terms.nonideal[j].bound();
-            let rows = terms.jacobian[j * multipliers.len()..].iter();
-            let rows = rows.zip(multipliers);
-            *out += rows.map(|(a, x)| a.bound() * x.abs()).sum::<f64>();
-        }
-        let columns = terms.mass.chunks_exact(out.len().max(1));
-        for (column, x) in columns.zip(acceleration) {
-            let pairs = out.iter_mut().zip(column);
-            pairs.for_each(|(out, mass)| *out += mass.bound() * x.abs());
-        }
-    }
 }
 
 fn bounds(rows: &[Rounded], out: &mut [f64]) {

@@ -6,18 +6,12 @@ use crate::scalar::{Dual, Scalar, functions, operators};
 /// States beside one at hand that show what rounding makes of an evaluation there, for whatever it is computed by: each number is off by ε,
 /// in directions without a pattern, the same in every run (the low-discrepancy sequence of the golden section).
 pub(crate) fn beside(y: &[f64]) -> impl Iterator<Item = Vec<f64>> {
-    signs().map(|signs| {
-        let moved = y.iter().zip(signs);
-        moved.map(|(y, sign)| y + sign * f64::EPSILON * y).collect()
-    })
-}
-
-/// These directions: 1 or −1 for each number.
-pub(crate) fn signs() -> impl Iterator<Item = impl Iterator<Item = f64>> {
     const STATES: u64 = 6;
     (1..=STATES).map(|k| {
         let step = k.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        (1..).map(move |i: u64| 1.0 - 2.0 * (i.wrapping_mul(step) >> 63) as f64)
+        let signs = (1..).map(|i: u64| 1.0 - 2.0 * (i.wrapping_mul(step) >> 63) as f64);
+        let moved = y.iter().zip(signs);
+        moved.map(|(y, sign)| y + sign * f64::EPSILON * y).collect()
     })
 }
 

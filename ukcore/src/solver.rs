@@ -29,7 +29,6 @@ use crate::scan::{all_finite, axpy};
 use crate::spec::Spec;
 
 mod agreement;
-pub(crate) mod carried;
 mod dropping;
 mod light;
 mod rank;

@@ -58,6 +58,7 @@ pub(crate) struct Diagnostic {
 pub(crate) struct Diagnostics {
     found: RefCell<Vec<Diagnostic>>,
     damaged: Cell<bool>,
+    joined: RefCell<Vec<(Loc, Loc)>>,
 }
 
 impl Diagnostics {
@@ -75,6 +76,20 @@ impl Diagnostics {
     /// Whether names are missing because of an error.
     pub(crate) fn damaged(&self) -> bool {
         self.damaged.get()
+    }
+
+    /// Notes that nothing stands between a term and what is next to it on its line.
+    pub(crate) fn join(&self, term: Loc, next: impl Into<Loc>) {
+        self.joined.borrow_mut().push((term, next.into()));
+    }
+
+    /// What is next to this term, with nothing between.
+    pub(crate) fn next_to(&self, term: Loc) -> Option<Loc> {
+        let joined = self.joined.borrow();
+        let found = joined
+            .iter()
+            .find(|(first, _)| is_same(first.start, term.start));
+        found.map(|(_, next)| *next)
     }
 
     /// Records an error, unless the same one is recorded for the same place (in a function that is called twice, say).

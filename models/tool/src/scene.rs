@@ -148,16 +148,18 @@ impl Start {
         let start = self.spec(entry).ok()?;
         let Setting { default, units, .. } = setting(entry, name, start).ok()?;
         let (_, unit) = elsewhere(default, units)?;
-        let far = |value: f64| (value / default).abs().ln().abs();
+        let like = if default == 0.0 { 1.0 } else { default };
+        let far = |value: f64| (value / like).abs().ln().abs();
         let there = Unit::parse(unit).ok()?.to_si(value);
-        let nearer = far(there) < far(value) || default == 0.0;
-        if !nearer || elsewhere(value, units).is_some() {
+        if far(there) >= far(value) || elsewhere(value, units).is_some() {
             return None;
         }
         let (number, si) = (short(value, 8), units[0]);
-        let meant = match unit.contains(' ') {
-            true => format!("'{name}={number} {unit}'"),
-            false => format!("{name}={number}{unit}"),
+        // `8/mm`, not `81/mm`.
+        let behind = unit.strip_prefix('1').unwrap_or(unit);
+        let meant = match behind.contains(' ') {
+            true => format!("'{name}={number} {behind}'"),
+            false => format!("{name}={number}{behind}"),
         };
         Some(format!(
             "`{name}` is {number} {si}, as bare numbers are; in {unit} write `{meant}`"

@@ -325,12 +325,20 @@ impl<'a> ByParts<'a> {
                 break;
             }
         }
+        met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         if met.are_many() && !self.lie_apart(part, &met.found) {
-            // The one next to the guess, as where there are fewer rows than unknowns.
             self.open = true;
             met.found.truncate(1);
+            let untold = &self.search.untold;
+            let manifold = &mut self.search.manifold;
+            let near = (&met.found[0].x[..], self.guess);
+            if let Some(settled) = manifold.settled(self.at, part, near, untold) {
+                let settled = self.found(part, settled);
+                met.found.retain(|near| near.distance <= settled.distance);
+                met.found.push(settled);
+                met.found.truncate(1);
+            }
         }
-        met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         met.found
     }
 

@@ -78,11 +78,7 @@ impl Search {
         if at.level != Level::Position || parts.len() < 2 && !determined {
             return None;
         }
-        let mut by_parts = ByParts::new(self, at, guess, &parts);
-        let (nearest, _) = by_parts.found_nearest()?;
-        if by_parts.open && parts.len() < 2 {
-            return None;
-        }
+        let (nearest, _) = ByParts::new(self, at, guess, &parts).found_nearest()?;
         self.projected(at, nearest.x)
     }
 
@@ -114,6 +110,25 @@ impl Search {
         parts(pattern, at.rows(), &self.free)
     }
 
+    /// A solution next to `x`, one of them, that is next to what the guess tells, if there is one.
+    fn settled(&mut self, at: &At<'_, f64>, guess: &[f64], x: Vec<f64>) -> Vec<f64> {
+        if at.level != Level::Position || self.untold.is_empty() {
+            return x;
+        }
+        let whole = Part::whole(at.rows(), self.free.clone());
+        let settled = self.manifold.settled(at, &whole, (&x, guess), &self.untold);
+        let settled = settled.and_then(|settled| self.projected(at, settled));
+        let ease = self.manifold.ease();
+        let told = self.free.iter().filter(|j| !self.untold.contains(*j));
+        let off = |x: &[f64]| -> f64 {
+            let told = told.clone();
+            told.map(|j| ((x[*j] - guess[*j]) / ease[*j]).powi(2)).sum()
+        };
+        settled
+            .filter(|settled| off(settled) < off(&x))
+            .unwrap_or(x)
+    }
+
     fn projected(&mut self, at: &At<'_, f64>, mut x: Vec<f64>) -> Option<Vec<f64>> {
         self.manifold.project(at, &mut x).is_ok().then_some(x)
     }
@@ -141,7 +156,7 @@ impl Search {
                 let mut place = guess.to_vec();
                 shake(&mut place, &self.free, |j| share * extents[j]);
                 let Err(cost) = self.manifold.search(at, guess, &mut place) else {
-                    return Ok(place);
+                    return Ok(self.settled(at, guess, place));
                 };
                 if cost < least && !even {
                     (least, x) = (cost, place);

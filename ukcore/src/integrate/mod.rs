@@ -178,10 +178,6 @@ pub(crate) trait Problem {
     fn blur(&mut self) -> f64 {
         0.0
     }
-    /// The most that rounding of all that accelerations are computed from makes of each; nothing where that is not known.
-    fn carried(&mut self, _at: Sample<'_>) -> Option<Vec<f64>> {
-        None
-    }
     /// A position where the motion does not just go on, on a step from `old` to `new` that goes over another one at the time `over`.
     fn met_beside(&mut self, _old: Sample<'_>, _new: Sample<'_>, _over: f64) -> Option<Singular> {
         None

@@ -26,7 +26,7 @@ const NEARBY: usize = 3;
 const MAX_STALLS: usize = 6;
 
 /// What follows others has their inertia times the square of this.
-const LIGHT: f64 = 1e-3;
+pub(super) const LIGHT: f64 = 1e-3;
 
 /// Factors of M and A.
 #[derive(Debug, Clone)]

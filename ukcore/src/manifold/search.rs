@@ -9,6 +9,7 @@ use super::acceptance::ROUNDING;
 use super::level::{At, Level};
 use super::newton::Newton;
 use super::parts::Part;
+use super::rank_revealing::LIGHT;
 use crate::mechanism::Prepared;
 use crate::scan::or_one;
 
@@ -191,6 +192,27 @@ impl Manifold {
         let values = Best::new(&self.newton, part, x).matrix.singular_values();
         let (least, most) = (values.min(), values.max());
         values.len() >= part.unknowns.len() && least > FLAT * most
+    }
+
+    /// A solution of `part` next to `x`, one of them, in which coordinates other than those `untold`, where rows leave them free, have the
+    /// values that they have in `guess`.
+    pub(crate) fn settled(
+        &mut self,
+        at: &At<'_, f64>,
+        part: &Part,
+        (x, guess): (&[f64], &[f64]),
+        untold: &[usize],
+    ) -> Option<Vec<f64>> {
+        let mut settled = x.to_vec();
+        let told = part.unknowns.iter().filter(|j| !untold.contains(j));
+        told.for_each(|j| settled[*j] = guess[*j]);
+        let ease = self.ease().to_vec();
+        for j in untold {
+            self.newton.acceptance.ease[*j] /= LIGHT;
+        }
+        let (near, _) = self.search_part(at, part, guess, &mut settled);
+        self.newton.acceptance.ease = ease;
+        near.then_some(settled)
     }
 
     /// The sign of det ∂φ/∂x at `x`, of the rows and unknowns of `part`: 0 where they are not as many as each other, or depend on each

@@ -14,7 +14,6 @@ use crate::integrate::{Method, Next, Outcome, Problem, Purpose, Settings, Singul
 use crate::linearise::Columns;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
-use crate::solver::carried::carried;
 use crate::solver::{CLEAR, RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
 
@@ -200,10 +199,6 @@ impl Problem for Run<'_> {
 
     fn blur(&mut self) -> f64 {
         self.solver.blur()
-    }
-
-    fn carried(&mut self, at: Sample<'_>) -> Option<Vec<f64>> {
-        carried(self.solver.mechanism(), (at.t, at.q, at.v))
     }
 
     fn met_beside(&mut self, old: Sample<'_>, new: Sample<'_>, over: f64) -> Option<Singular> {

@@ -109,19 +109,18 @@ impl Simulation {
         let size = if size > 0.0 { size.min(most) } else { most };
         let speed = self.speed(size, &measure, [&new_q, &v], t_end - t);
         let tolerance = self.tolerance_of([size, speed], &measure);
+        let of_q = tolerance.floors[..q.len()].iter();
+        let absolute: Vec<f64> = of_q.map(|x| tolerance.relative * x).collect();
         // Beside what the equations know of lengths less than its rounding is nothing, and may be all that assembly has left of zeros.
         let nothing = f64::EPSILON * reach.unwrap_or(0.0);
-        let floors = tolerance.floors.iter().zip(&measure.scale);
-        let allowed =
-            |(floor, unit): (&f64, &f64)| nothing.mul_add(*unit, tolerance.relative * floor);
-        let absolute: Vec<f64> = floors.map(allowed).collect();
-        let absolute = &absolute[..];
-        if !near([&q, &new_q], absolute, &measure) {
+        let units = absolute.iter().zip(&measure.scale);
+        let allowed: Vec<f64> = units.map(|(x, unit)| x + nothing * unit).collect();
+        if !near([&q, &new_q], &allowed, &measure) {
             let residual = Residuals::at(mech, t, &q, &v).position;
             return Err(off_constraint(spec, "position", &residual));
         }
         let velocity = projector.velocity(t, &new_q, &mut new_v)?;
-        if !near([&v, &new_v], absolute, &measure) {
+        if !near([&v, &new_v], &absolute, &measure) {
             let residual = Residuals::at(mech, t, &new_q, &v).velocity;
             return Err(off_constraint(spec, "velocity", &residual));
         }
@@ -168,8 +167,8 @@ impl Simulation {
 /// An error control relative to the coordinate does not see it.
 fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
     let spec = mech.spec();
-    let refuse = |what, name, x: f64| {
-        let rounding = x.abs() * f64::EPSILON;
+    let refuse = |what, name, x: f64, times: f64| {
+        let rounding = times * x.abs() * f64::EPSILON;
         let reason = format!(
             "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
         );
@@ -179,9 +178,9 @@ fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
         }
     };
     let mut angles = spec.structure.angles.iter();
-    angles.try_for_each(|i| refuse("start", spec.coords[*i], q[*i]))?;
+    angles.try_for_each(|i| refuse("start", spec.coords[*i], q[*i], 1.0))?;
     let (mut phases, values) = (spec.structure.phases.iter(), mech.parameters());
-    phases.try_for_each(|i| refuse("mechanism", spec.params[*i].name, values[*i]))
+    phases.try_for_each(|(i, times)| refuse("mechanism", spec.params[*i].name, values[*i], *times))
 }
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.

@@ -3,7 +3,7 @@
 //! q̈ = M⁻¹ (Q + Aᵀλ) of a light coordinate that constraints tie to heavy ones is what is left of terms that all but cancel: ε |Q|/m of it
 //! is rounding. In row c of A coordinate j has the part a_cj²/m_j of G_cc, in the same unit as all others of the row. Where those of some
 //! inertia make up all but [`SHARE`] of it, and others the rest, what these do is lost in the rounding of those. Of a quaternion, which has
-//! no inertia along itself, the turns about the axes of its body stand for the coordinates.
+//! no inertia along itself, the turns about the axes of its body may stand for the coordinates.
 //!
 //! A part may vanish at single states, as that of a crank in line with its rod: so a row is even once it was so at one state, with
 //! parameters as they are. What rounding is then at such states, it is at all.
@@ -52,25 +52,29 @@ impl Light {
                 |j: usize| here.jacobian[j * m + c],
                 |i: usize, j: usize| here.mass[i * n + j],
             );
-            let parts = &mut self.parts;
-            parts.clear();
-            let is_turned =
-                |j: &usize| quaternions(spec).any(|first| (first..first + 4).contains(j));
-            let plain = (0..n).filter(|j| a(*j) != 0.0 && !is_turned(j));
-            parts.extend(plain.map(|j| (mass(j, j), a(j) / mass(j, j) * a(j))));
-            for first in quaternions(spec) {
-                for turn in turns(&q[first..]) {
-                    let along = |of: &dyn Fn(usize) -> f64| -> f64 {
-                        (0..4).map(|i| turn[i] * of(first + i)).sum()
-                    };
-                    let a = along(&a);
-                    if a != 0.0 {
-                        let inertia = along(&|i| along(&|j| mass(i, j)));
-                        parts.push((inertia, a / inertia * a));
+            // Which axes a quaternion turns about decides nothing where its coordinates do not.
+            for by_turns in [false, true] {
+                let parts = &mut self.parts;
+                parts.clear();
+                let turned = |j: &usize| {
+                    by_turns && quaternions(spec).any(|first| (first..first + 4).contains(j))
+                };
+                let plain = (0..n).filter(|j| a(*j) != 0.0 && !turned(j));
+                parts.extend(plain.map(|j| (mass(j, j), a(j) / mass(j, j) * a(j))));
+                for first in quaternions(spec).filter(|_| by_turns) {
+                    for turn in turns(&q[first..]) {
+                        let along = |of: &dyn Fn(usize) -> f64| -> f64 {
+                            (0..4).map(|i| turn[i] * of(first + i)).sum()
+                        };
+                        let a = along(&a);
+                        if a != 0.0 {
+                            let inertia = along(&|i| along(&|j| mass(i, j)));
+                            parts.push((inertia, a / inertia * a));
+                        }
                     }
                 }
+                *even |= is_even(parts);
             }
-            *even = is_even(parts);
             all &= *even;
         }
         all

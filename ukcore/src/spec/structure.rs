@@ -26,8 +26,8 @@ pub struct Structure {
     /// Coordinates that are angles: those in the argument of a sine, cosine or tangent of M, Q, c, A or b, with no unit but rad where units
     /// are declared, else with no factor there but numbers.
     pub angles: &'static [usize],
-    /// Parameters that are added to something in the argument of a sine, cosine or tangent of M, Q, c, A or b.
-    pub phases: &'static [usize],
+    /// Parameters that are added to what varies in the argument of a sine, cosine or tangent of M, Q, c, A or b, and times which number.
+    pub phases: &'static [(usize, f64)],
     /// No explicit time anywhere.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).

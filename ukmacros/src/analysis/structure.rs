@@ -18,8 +18,8 @@ pub(crate) struct Structure {
     pub(crate) massless: Vec<usize>,
     /// Coordinates that are angles: in the argument of a sine, cosine or tangent of the equations.
     pub(crate) angles: Vec<usize>,
-    /// Parameters that are added to something in such an argument.
-    pub(crate) phases: Vec<usize>,
+    /// Parameters that are added to what varies in such an argument, and times which number.
+    pub(crate) phases: Vec<(usize, f64)>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
     /// The non-ideal force depends on reactions.
@@ -60,7 +60,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
     let lagrangian = mass_constant || system.kinetic.is_some();
     let forced: Vec<usize> = (0..n).filter(|i| !lagrangian || declared(i)).collect();
     let conservative = scleronomic && !nonideal && forced.is_empty() && homogeneous && quadratic;
-    let (angles, phases) = angles(dynamics, g, model);
+    let arguments = arguments(dynamics, g);
     let mut structure = Structure {
         mass_diagonal,
         mass_constant,
@@ -68,8 +68,8 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         jacobian_driven,
         jacobian_fixed,
         massless,
-        angles,
-        phases,
+        angles: angles(&arguments, g, model),
+        phases: phases(&arguments, g),
         scleronomic,
         nonideal,
         loaded,
@@ -84,32 +84,17 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
 
 /// Coordinates in the argument of a sine, cosine or tangent of M, Q, c, A or b, unless within a function there that is no angle's: of
 /// sin(asin(x)) and cos(atan2(y, x)) none is an angle. Where units are declared these tell; where they are not a coordinate is an angle if
-/// the argument changes by a number times as much: x in sin(k x) is a length if k is one over a length. And parameters
-/// that are added to something in such an argument.
-fn angles(d: &Dynamics, g: &Graph, model: &Model) -> (Vec<usize>, Vec<usize>) {
-    let matrices = d.mass.values().chain(d.jacobian.values());
-    let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
-    let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
-    let turns = |func: &Func| matches!(func, Func::Sin | Func::Cos | Func::Tan);
-    let turning = |id: &Id| matches!(g.node(*id), Node::Call(func, _) if turns(func));
-    let calls = g.reachable(&roots).into_iter().filter(turning);
-    let mut stack: Vec<Id> = calls.flat_map(|id| g.operands(id)).collect();
+/// the argument changes by a number times as much: x in sin(k x) is a length if k is one over a length.
+fn angles(arguments: &[Id], g: &Graph, model: &Model) -> Vec<usize> {
+    let mut stack = arguments.to_vec();
     let mut seen = HashSet::new();
-    let (mut angles, mut phases) = (BTreeSet::new(), BTreeSet::new());
+    let mut angles = BTreeSet::new();
     while let Some(id) = stack.pop() {
         if !seen.insert(id) {
             continue;
         }
         match *g.node(id) {
             Node::Symbol(Symbol::Coord(i)) => drop(angles.insert(i)),
-            Node::Sum(_, ref terms) => {
-                let terms = terms.iter().map(|(_, term)| *term);
-                phases.extend(terms.clone().filter_map(|term| match *g.node(term) {
-                    Node::Symbol(Symbol::Param(i)) => Some(i),
-                    _ => None,
-                }));
-                stack.extend(terms);
-            }
             Node::Call(Func::Abs | Func::Min | Func::Max, _) => stack.extend(g.operands(id)),
             Node::Call(..) => {}
             Node::Product(_) if !model.units => {}
@@ -119,7 +104,43 @@ fn angles(d: &Dynamics, g: &Graph, model: &Model) -> (Vec<usize>, Vec<usize>) {
     let units: Vec<_> = model.coord_elements.iter().map(|c| &c.unit).collect();
     let turns = |unit: &Unit| matches!(unit.si().as_str(), "" | "rad");
     angles.retain(|i| !model.units || units[*i].as_ref().is_none_or(turns));
-    (angles.into_iter().collect(), phases.into_iter().collect())
+    angles.into_iter().collect()
+}
+
+/// Parameters that are added to what varies in one of these arguments, and times which number: what is less than their rounding is lost there.
+fn phases(arguments: &[Id], g: &Graph) -> Vec<(usize, f64)> {
+    let mut phases: Vec<(usize, f64)> = Vec::new();
+    let mut stack: Vec<(Id, f64)> = arguments.iter().map(|id| (*id, 1.0)).collect();
+    while let Some((id, times)) = stack.pop() {
+        match g.node(id) {
+            Node::Scale(factor, of) => stack.push((*of, times * factor.get())),
+            Node::Held(of) => stack.push((*of, times)),
+            Node::Sum(_, terms) if !g.uses(id).constant() => {
+                for (factor, term) in terms {
+                    let times = times * factor.get();
+                    match *g.node(*term) {
+                        Node::Symbol(Symbol::Param(i)) => phases.push((i, times.abs())),
+                        _ => stack.push((*term, times)),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    phases.sort_by(|(i, a), (j, b)| i.cmp(j).then(b.total_cmp(a)));
+    phases.dedup_by_key(|(i, _)| *i);
+    phases
+}
+
+/// The arguments of all sines, cosines and tangents of M, Q, c, A and b.
+fn arguments(d: &Dynamics, g: &Graph) -> Vec<Id> {
+    let matrices = d.mass.values().chain(d.jacobian.values());
+    let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
+    let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
+    let turns = |func: &Func| matches!(func, Func::Sin | Func::Cos | Func::Tan);
+    let turning = |id: &Id| matches!(g.node(*id), Node::Call(func, _) if turns(func));
+    let calls = g.reachable(&roots).into_iter().filter(turning);
+    calls.flat_map(|id| g.operands(id)).collect()
 }
 
 fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> {

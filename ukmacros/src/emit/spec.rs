@@ -155,7 +155,10 @@ fn structure(analysis: &Analysis) -> TokenStream {
     let fixed = jacobian_fixed.iter().map(|(i, j)| pair(*i, *j));
     let massless = massless.iter().map(|i| number(*i));
     let angles = angles.iter().map(|i| number(*i));
-    let phases = phases.iter().map(|i| number(*i));
+    let phases = phases.iter().map(|(i, times)| {
+        let (i, times) = (number(*i), float(*times));
+        quote! { (#i, #times) }
+    });
     let forced = forced.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {

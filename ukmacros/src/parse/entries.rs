@@ -218,10 +218,9 @@ pub(super) fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
 
 pub(super) fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     let e = expression(input, diag)?;
-    // A term on the same line: a forgotten sign would change what is meant without a word.
     let goes_on = input.peek(syn::Ident) || input.peek(syn::token::Paren) || input.peek(syn::Lit);
     if goes_on && !input.peek(Token![for]) && e.loc.end.end().line == input.span().start().line {
-        return Err(input.error("`*` is missing before this, or `,` if it is a term of its own"));
+        diag.join(e.loc, input.span());
     }
     Ok(e)
 }

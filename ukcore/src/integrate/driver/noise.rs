@@ -25,10 +25,6 @@ const STAGES: f64 = 1.5;
 /// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
 const SAMPLED: f64 = 2.5;
 
-/// Where rounding may be so many times what it is beside a state, it is that of numbers that do not change there. (Bounds are some ten
-/// times what it is.)
-const UNSEEN: f64 = 100.0;
-
 /// Rounding may make so many times the tolerance of a step, or this share of the motion, before the run is no longer that motion.
 const MOST: f64 = 10.0;
 pub(super) const LOST: f64 = 1e-6;
@@ -191,16 +187,8 @@ impl Driver<'_> {
             let pairs = most.iter_mut().zip(there.iter().zip(&now));
             pairs.for_each(|(most, (there, now))| *most = most.max((there - now).abs()));
         }
-        most.iter_mut().for_each(|most| *most *= SAMPLED);
-        if self.equations.course.attempts >= SELDOM {
-            let at = self.equations.at(s, y);
-            let carried = self.equations.problem.carried(at).unwrap_or_default();
-            let pairs = most.iter_mut().zip(carried);
-            let unseen = pairs.filter(|(most, carried)| *carried > UNSEEN * **most);
-            unseen.for_each(|(most, carried)| *most = carried);
-        }
         let all = rounding.iter_mut().zip(of_time.iter().zip(most));
-        all.for_each(|(all, (of_time, most))| *all += of_time + most);
+        all.for_each(|(all, (of_time, most))| *all += of_time + SAMPLED * most);
         Ok([rounding, hidden, of_time])
     }
 }

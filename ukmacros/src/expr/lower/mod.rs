@@ -309,6 +309,12 @@ impl<'m> Lowering<'m> {
                 _ => (Dimension::ENERGY, "an energy"),
             };
             self.expect(id, Measured::of(dimension), what, e.loc);
+            // A forgotten sign would change what is meant without a word.
+            let next = self.diag.next_to(e.loc);
+            if let Some(next) = next.filter(|_| self.graph.uses(id).constant()) {
+                let message = "`*` is missing before this, or `,` if it is a term of its own";
+                self.diag.error(next, message);
+            }
             terms.push((1.0, id));
         });
         terms

@@ -141,7 +141,7 @@ parts! {
     "rolls" Space (q: Point, u: Direction, r: Number["m"]) Rows(&[
         "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
         "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(sq(q.along(normalise(u))[0]) + sq(q.along(normalise(u))[1])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
-    ], "x y", &[]);
+    ], "x y", &["[1, 0, 0]", "[0, 1, 0]"]);
     "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
     "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
@@ -252,8 +252,7 @@ impl<'m> Lowering<'m> {
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         self.rim(part.name, e.loc, &inner);
         let mut load = self.load(&inner);
-        // The place of q follows from that of the body where the body has one of its own.
-        if let Some(load) = load.as_mut().filter(|load| load.is_hung()) {
+        if let Some(load) = &mut load {
             let pushes = pushes.iter();
             let pushes = pushes.map(|text| self.written(text, e.loc, &inner).entries().to_vec());
             load.pushes = pushes.collect();
@@ -281,7 +280,15 @@ impl<'m> Lowering<'m> {
             Value::Point(q) if name == "q" => Some(q.place.entries().to_vec()),
             _ => None,
         });
-        Load::between(first.as_deref(), &*second?, at, &self.graph)
+        let second = second?;
+        let mut load = Load::between(first.as_deref(), &second, at, &self.graph)?;
+        // Where the first body hangs on the second one, coordinates of that move both.
+        let moving = first.as_ref().and_then(|first| first.moving.as_ref());
+        let place = moving.map_or(&[][..], |moving| &moving.place[..]);
+        if second.moving.is_some() && load.moves(place, &self.graph) {
+            load.orientation.clear();
+        }
+        Some(load)
     }
 
     /// Enters what an entry of `forces` means.

@@ -30,20 +30,25 @@ pub(super) struct Load {
     /// Coordinates of a centre of mass, by position; none of a body whose place follows from other coordinates.
     centre: Vec<usize>,
     /// The angle of the body, or its quaternion, by position; none of a body whose orientation follows from other coordinates.
-    orientation: Vec<usize>,
+    pub(super) orientation: Vec<usize>,
     /// −1 where these are the first body's, as the second is the ground.
     sign: f64,
     /// The point that the force acts at, and about which the moment is taken, in axes of the ground; none where there is no force.
     at: Option<Vec<Id>>,
-    /// What the first rows push with for a multiplier of 1, for a body whose place follows from other coordinates; none where they do along
-    /// the axes.
+    /// What the first rows push the second body with for a multiplier of 1; none where they do along the axes.
     pub(super) pushes: Vec<Vec<Id>>,
 }
 
 impl Load {
-    /// Whether the place of the body follows from other coordinates.
-    pub(super) fn is_hung(&self) -> bool {
-        self.centre.is_empty()
+    /// Whether `place` depends on the coordinates of the body.
+    pub(super) fn moves(&self, place: &[Id], g: &Graph) -> bool {
+        let own = |id: &Id| match g.node(*id) {
+            Node::Symbol(Symbol::Coord(i)) => {
+                self.centre.contains(i) || self.orientation.contains(i)
+            }
+            _ => false,
+        };
+        g.reachable(place).iter().any(own)
     }
 
     /// Of a joint of `first` and `second`, unless both are of the ground.
@@ -229,30 +234,20 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let (rows, shape) = (rows.clone(), shape.clone());
-        // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
-        let axes = names.iter().zip(["x", "y", "z"]);
-        let axes = axes.take_while(|(name, axis)| *name == axis).count();
-        let load = load.clone().filter(|load| load.at.is_some());
-        let Some(Load {
-            centre,
-            sign,
-            pushes,
-            ..
-        }) = load
-        else {
+        let Some(Load { pushes, .. }) = load.clone().filter(|load| load.at.is_some()) else {
             let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
-        if axes >= 2 && (centre.is_empty() || axes == centre.len()) {
-            let components = rows.take(axes).map(Symbol::Multiplier);
-            let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
-            return Value::vector(components);
-        }
-        if centre.is_empty() {
+        if !pushes.is_empty() {
             return Value::vector(self.pushed(&pushes, &rows));
         }
-        Value::vector(self.generalised(&centre, sign, &rows))
+        // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
+        let axes = names.iter().zip(["x", "y", "z"]);
+        let axes = axes.take_while(|(name, axis)| *name == axis).count();
+        let components = rows.take(axes).map(Symbol::Multiplier);
+        let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
+        Value::vector(components)
     }
 
     /// The force of these rows, the first of which push so.
@@ -297,7 +292,7 @@ impl<'m> Lowering<'m> {
         };
         if load.orientation.is_empty() {
             let message = format!(
-                "the bodies of `{text}` have no coordinates of their own orientation; take the multipliers of its rows by `reaction`"
+                "the second body of `{text}` has no coordinates of its own orientation, or the first one hangs on it; take the multipliers of its rows by `reaction`"
             );
             return self.error(arg.loc, message);
         }
