@@ -293,7 +293,8 @@ mod implied {
     }
 }
 
-/// A row that follows from others leaves a freedom, as where it is not written: the search decides, and nothing is another way beside it.
+/// A row that follows from others leaves a freedom, as where it is not written: what is said can be had, and nothing is another way beside
+/// it.
 #[test]
 fn implied_rows_change_no_start() {
     let state = |mechanism: Prepared| {
@@ -311,11 +312,11 @@ fn implied_rows_change_no_start() {
         implied::Twice::default().prepared(),
     ]
     .map(state);
-    assert_all_close("q", &twice, &once, 1e-12);
+    assert_all_close("q", &once, &[0.7, -0.3], 1e-9);
+    assert_all_close("q", &twice, &once, 1e-9);
     let cranks = state(implied::Cranks::default().prepared());
-    // All that is said is the same of each, and draws the beam that way.
-    assert!(cranks[2] < -0.3 && cranks[2] > -3.0, "{cranks:?}");
-    assert_all_close("cranks", &cranks[3..], &[cranks[2]; 2], 1e-12);
+    // What is said can be had, and the beam follows.
+    assert_all_close("cranks", &cranks[2..], &[-1.0; 3], 1e-9);
 }
 
 mod zeros {

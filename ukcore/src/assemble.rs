@@ -130,10 +130,10 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members, a body's all its coordinates.
 ///
-/// Where what is held leaves as many constraints as coordinates, or more, states lie apart, and the one with the least Σ M_jj Δq_j² is
-/// looked for: a far guess has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one
-/// that the search from the guess leads to. [`assemble_with_alternatives`](crate::assemble_with_alternatives) tells of others that are as
-/// near, and how far which coordinate was moved.
+/// Where what is held leaves as many constraints as coordinates, or more, the state with the least Σ M_jj Δq_j² is looked for: a far guess
+/// has dozens of searches begin around it, which may miss one. Where coordinates stay free the state is the one that the search from
+/// the guess leads to. [`assemble_with_alternatives`](crate::assemble_with_alternatives) tells of others that are as near, and how far
+/// which coordinate was moved.
 ///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in

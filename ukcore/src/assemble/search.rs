@@ -112,7 +112,8 @@ impl Search {
 
     /// A solution next to `x`, one of them, that is next to what the guess tells, if there is one.
     fn settled(&mut self, at: &At<'_, f64>, guess: &[f64], x: Vec<f64>) -> Vec<f64> {
-        if at.level != Level::Position || self.untold.is_empty() {
+        let told = |j: &usize| !self.untold.contains(j) && x[*j] != guess[*j];
+        if at.level != Level::Position || self.untold.is_empty() || !self.free.iter().any(told) {
             return x;
         }
         let whole = Part::whole(at.rows(), self.free.clone());

@@ -33,6 +33,9 @@ const CLOSE: f64 = 1e-16;
 /// rest.
 const NEAR: f64 = 1.5e-8;
 
+/// Searches for a solution that keeps what is told.
+const TIMES: usize = 2;
+
 /// What follows from other rows has this share of a singular value at most, at a place that is as near as [`NEAR`].
 const FLAT: f64 = 1e-6;
 
@@ -205,12 +208,15 @@ impl Manifold {
     ) -> Option<Vec<f64>> {
         let mut settled = x.to_vec();
         let told = part.unknowns.iter().filter(|j| !untold.contains(j));
-        told.for_each(|j| settled[*j] = guess[*j]);
         let ease = self.ease().to_vec();
         for j in untold {
             self.newton.acceptance.ease[*j] /= LIGHT;
         }
-        let (near, _) = self.search_part(at, part, guess, &mut settled);
+        // What the others take from them falls each time.
+        let near = (0..TIMES).all(|_| {
+            told.clone().for_each(|j| settled[*j] = guess[*j]);
+            self.search_part(at, part, guess, &mut settled).0
+        });
         self.newton.acceptance.ease = ease;
         near.then_some(settled)
     }
