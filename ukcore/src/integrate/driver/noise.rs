@@ -25,6 +25,9 @@ const STAGES: f64 = 1.5;
 /// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
 const SAMPLED: f64 = 2.5;
 
+/// Times that are so many times as far from zero as from the start of the run are late.
+const AFTER: f64 = 100.0;
+
 /// Rounding may make so many times the tolerance of a step, or this share of the motion, before the run is no longer that motion.
 const MOST: f64 = 10.0;
 pub(super) const LOST: f64 = 1e-6;
@@ -115,6 +118,7 @@ impl Driver<'_> {
     pub(super) fn measure(&mut self, seldom: usize) {
         let Equations { course, .. } = &self.equations;
         let (s, attempts) = (course.now.s, course.attempts);
+        let late = course.now.t.abs() > AFTER * s.abs();
         let ulp = f64::EPSILON * course.now.t.abs();
         if self.measured.is_none_or(|last| attempts < last + seldom) {
             return;
@@ -134,7 +138,7 @@ impl Driver<'_> {
             most,
             hidden: self.norm(&hidden),
             worst,
-            time: (of_time[worst] > 0.5 * all[worst]).then_some(ulp),
+            time: (late && of_time[worst] > 0.5 * all[worst]).then_some(ulp),
         };
         if noise.own.is_finite() && most.is_finite() {
             self.noise = noise;
