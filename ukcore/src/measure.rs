@@ -435,8 +435,7 @@ fn classes(spec: &Spec) -> (Vec<usize>, usize, Vec<Turn>) {
     }
     let unit = [structure.solve.regular, structure.solve.turned].concat();
     for c in unit {
-        let entries = structure.jacobian_pattern.iter();
-        let all: Vec<usize> = entries.filter(|x| x.0 == c).map(|x| x.1).collect();
+        let all: Vec<usize> = structure.in_row(c).collect();
         if !declared {
             let name = all.iter().map(|i| names[*i].clone()).min();
             let name = name.filter(|name| !name.is_empty());

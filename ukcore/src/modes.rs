@@ -15,7 +15,7 @@ use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
-use crate::spec::Structure;
+use crate::spec::Solve;
 use crate::spectrum::eigenvalues;
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
@@ -308,15 +308,12 @@ const WEIGHTLESS: f64 = 1e-12;
 /// kinetic energy of a body knows nothing of the quaternion's length.
 pub(crate) fn quaternions(mech: &Prepared, state: &State) -> Vec<(usize, Vec<usize>)> {
     let (mass, rows) = (mass_matrix(mech, state), constraint_matrix(mech, state));
-    let Structure {
-        solve,
-        jacobian_pattern,
-        ..
-    } = &mech.spec().structure;
-    let candidates = [solve.regular, solve.turned].concat().into_iter().map(|c| {
-        let entries = jacobian_pattern.iter().filter(|(row, _)| *row == c);
-        (c, entries.map(|(_, j)| *j).collect::<Vec<_>>())
-    });
+    let structure = &mech.spec().structure;
+    let Solve {
+        regular, turned, ..
+    } = structure.solve;
+    let candidates = [regular, turned].concat().into_iter();
+    let candidates = candidates.map(|c| (c, structure.in_row(c).collect::<Vec<_>>()));
     let weightless = |(c, all): &(usize, Vec<usize>)| {
         let inertia: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
         let size = all.iter().fold(0.0_f64, |sum, j| sum.hypot(rows[(*c, *j)]));
@@ -435,11 +432,10 @@ fn steady(
             let mut reason = format!(
                 "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
             );
-            let turns = |row: &usize| {
-                let entries = mech.spec().structure.jacobian_pattern;
-                entries.contains(&(*row, i))
-            };
-            if mech.spec().structure.solve.turned.iter().any(turns) {
+            if quaternions(mech, state)
+                .iter()
+                .any(|(_, all)| all.contains(&i))
+            {
                 reason += ", as a quaternion of a body that spins does not: turn that by angles, such as those of a `tree`";
             }
             return Err(Error::invalid("state", reason));

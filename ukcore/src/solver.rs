@@ -143,7 +143,7 @@ impl Solver {
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
-            light: light::Light::new(n, m),
+            light: light::Light::new(spec),
             ideal: false,
             dropping: Dropping::new(),
             noise: Noise::new(&mechanism),

@@ -328,18 +328,21 @@ impl<'a> ByParts<'a> {
         met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         if met.are_many() && !self.lie_apart(part, &met.found) {
             self.open = true;
-            met.found.truncate(1);
-            let untold = &self.search.untold;
-            let manifold = &mut self.search.manifold;
-            let near = (&met.found[0].x[..], self.guess);
-            if let Some(settled) = manifold.settled(self.at, part, near, untold) {
-                let settled = self.found(part, settled);
-                met.found.retain(|near| near.distance <= settled.distance);
-                met.found.push(settled);
-                met.found.truncate(1);
-            }
+            let near = met.found.swap_remove(0);
+            return vec![self.settled(part, near)];
         }
         met.found
+    }
+
+    /// Of the solutions that do not lie apart from this one the one that is next to what the guess tells.
+    fn settled(&mut self, part: &Part, near: Found) -> Found {
+        let Search {
+            manifold, untold, ..
+        } = &mut *self.search;
+        let settled = manifold.settled(self.at, part, (&near.x, self.guess), untold);
+        let settled = settled.map(|x| self.found(part, x));
+        let nearer = settled.filter(|settled| settled.distance < near.distance);
+        nearer.unwrap_or(near)
     }
 
     /// Whether rows tell one of these solutions of `part` from all beside it.
@@ -412,12 +415,7 @@ impl<'a> ByParts<'a> {
 
     /// Σ (Δq √inertia)² of the unknowns of `part`.
     fn distance_of(&self, part: &Part, x: &[f64]) -> f64 {
-        let ease = self.search.manifold.ease();
-        let off = |j: &usize| {
-            let off = (x[*j] - self.guess[*j]) / ease[*j];
-            (weight(&self.search.untold, *j) * off).powi(2)
-        };
-        part.unknowns.iter().map(off).sum()
+        self.search.distance(&part.unknowns, self.guess, x)
     }
 
     /// The same of several parts.

@@ -1,6 +1,6 @@
 //! The search for q, then for q̇.
 
-use super::by_parts::{ByParts, SHAKES, shake};
+use super::by_parts::{ByParts, SHAKES, shake, weight};
 use super::{Held, State};
 use crate::error::Error;
 use crate::manifold::{At, Level, Manifold, Part, parts};
@@ -113,21 +113,25 @@ impl Search {
     /// A solution next to `x`, one of them, that is next to what the guess tells, if there is one.
     fn settled(&mut self, at: &At<'_, f64>, guess: &[f64], x: Vec<f64>) -> Vec<f64> {
         let told = |j: &usize| !self.untold.contains(j) && x[*j] != guess[*j];
-        if at.level != Level::Position || self.untold.is_empty() || !self.free.iter().any(told) {
+        if at.level != Level::Position || !self.free.iter().any(told) {
             return x;
         }
         let whole = Part::whole(at.rows(), self.free.clone());
         let settled = self.manifold.settled(at, &whole, (&x, guess), &self.untold);
         let settled = settled.and_then(|settled| self.projected(at, settled));
+        let off = |x: &[f64]| self.distance(&self.free, guess, x);
+        let nearer = settled.filter(|settled| off(settled) < off(&x));
+        nearer.unwrap_or(x)
+    }
+
+    /// Σ (Δq √inertia)² of these coordinates from the guess, where it tells of them.
+    pub(super) fn distance(&self, coordinates: &[usize], guess: &[f64], x: &[f64]) -> f64 {
         let ease = self.manifold.ease();
-        let told = self.free.iter().filter(|j| !self.untold.contains(*j));
-        let off = |x: &[f64]| -> f64 {
-            let told = told.clone();
-            told.map(|j| ((x[*j] - guess[*j]) / ease[*j]).powi(2)).sum()
+        let off = |j: &usize| {
+            let off = (x[*j] - guess[*j]) / ease[*j];
+            (weight(&self.untold, *j) * off).powi(2)
         };
-        settled
-            .filter(|settled| off(settled) < off(&x))
-            .unwrap_or(x)
+        coordinates.iter().map(off).sum()
     }
 
     fn projected(&mut self, at: &At<'_, f64>, mut x: Vec<f64>) -> Option<Vec<f64>> {

@@ -404,8 +404,8 @@ impl<'a> Sweep<'a> {
         // A force on the drive is held by the rows that add up to it there; those of parts that stand still but pass it on.
         let rows = curve.rows(&place.x, n);
         let moves = |row: usize| {
-            let mut pattern = spec.structure.jacobian_pattern.iter();
-            pattern.any(|(c, j)| *c == row && (way[*j] / way[leader]).abs() > SHARE)
+            let mut coordinates = spec.structure.in_row(row);
+            coordinates.any(|j| (way[j] / way[leader]).abs() > SHARE)
         };
         let holding = self.holding(&rows).filter(|(_, row)| moves(*row));
         let holding = holding.map(|(name, _)| name);

@@ -198,7 +198,7 @@ impl Manifold {
     }
 
     /// A solution of `part` next to `x`, one of them, in which coordinates other than those `untold`, where rows leave them free, have the
-    /// values that they have in `guess`.
+    /// values that they have in `guess`; none where there are no others to follow them.
     pub(crate) fn settled(
         &mut self,
         at: &At<'_, f64>,
@@ -206,6 +206,9 @@ impl Manifold {
         (x, guess): (&[f64], &[f64]),
         untold: &[usize],
     ) -> Option<Vec<f64>> {
+        if untold.is_empty() {
+            return None;
+        }
         let mut settled = x.to_vec();
         let told = part.unknowns.iter().filter(|j| !untold.contains(j));
         let ease = self.ease().to_vec();

@@ -16,6 +16,7 @@ use crate::mechanism::{Branch, Prepared};
 use crate::noise::Noise;
 use crate::scan::{axpy, largest};
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
+use crate::spec::Spec;
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -41,7 +42,7 @@ const STILL: f64 = 64.0 * f64::EPSILON;
 /// outweighs the forces.
 const FAST: f64 = 4.0;
 
-/// A coordinate without mass that accelerates so many times as much as all that has mass, beside what is allowed, is left by the constraints.
+/// A coordinate without mass that accelerates so many times as much as all that has mass, beside what is allowed, is left to itself.
 const LEFT_ALONE: f64 = 1e3;
 
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
@@ -136,6 +137,37 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     let (q, v) = (&near_q[..], &near_v[..]);
     let weakest = weakest_at(solver, Sample { q, v, ..at }).ok()?;
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
+}
+
+/// The error of a motion that steps of this size do not follow, with the coordinate that accelerates most: one without mass, if all that has
+/// mass moves as before, and tells ever less of where it is.
+fn too_fast(
+    spec: &Spec,
+    v: &[f64],
+    acceleration: &[f64],
+    tolerance: &Tolerance,
+    step: f64,
+) -> Error {
+    let n = v.len();
+    let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
+    let first = (0..n).max_by(|i, j| share(i).total_cmp(&share(j)));
+    let name = |i: usize| spec.coords[i].to_owned();
+    let massless = spec.structure.massless;
+    let massive = (0..n).filter(|i| !massless.contains(i));
+    let most = massive.map(|i| share(&i)).fold(0.0, f64::max);
+    match first {
+        Some(i) if massless.contains(&i) && share(&i) > LEFT_ALONE * most => {
+            Error::Underdetermined {
+                coordinates: vec![name(i)],
+                rank: n - 1,
+                needed: n,
+            }
+        }
+        _ => Error::StepTooSmall {
+            step,
+            fastest: first.map(|i| (name(i), acceleration[i])),
+        },
+    }
 }
 
 /// The error of a motion that constraints do not let go on in the direction of its velocity: those which its next positions violate end
@@ -426,8 +458,7 @@ pub(super) fn explain(
     if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
         trouble.error = limit;
     }
-    if let Error::StepTooSmall { step, fastest } = &mut trouble.error {
-        let step = *step;
+    if let Error::StepTooSmall { step, .. } = trouble.error {
         let State { t, q, v } = &trouble.state;
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
@@ -440,24 +471,7 @@ pub(super) fn explain(
             if let Some(kink) = kink(mechanism, &trouble.state, step) {
                 return trouble.state.locate(kink);
             }
-            let n = q.len();
-            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(n + i, v[*i].abs());
-            let first = (0..n).max_by(|i, j| share(i).total_cmp(&share(j)));
-            let name = |i: usize| mechanism.spec().coords[i].to_owned();
-            let massless = mechanism.spec().structure.massless;
-            let massive = (0..n).filter(|i| !massless.contains(i));
-            let most = massive.map(|i| share(&i)).fold(0.0, f64::max);
-            match first {
-                // All that has mass moves as before, and tells ever less of where this one is.
-                Some(i) if massless.contains(&i) && share(&i) > LEFT_ALONE * most => {
-                    trouble.error = Error::Underdetermined {
-                        coordinates: vec![name(i)],
-                        rank: n - 1,
-                        needed: n,
-                    };
-                }
-                _ => *fastest = first.map(|i| (name(i), acceleration[i])),
-            }
+            trouble.error = too_fast(mechanism.spec(), v, &acceleration, tolerance, step);
         }
     }
     let State { t, q, v } = &trouble.state;

@@ -162,20 +162,19 @@ impl Simulation {
     }
 }
 
-/// An error where a coordinate in a sine, cosine or tangent of the equations, or a parameter added to something there, is so large that
-/// it is rounded by more than [`BLUR`].
-/// An error control relative to the coordinate does not see it.
+/// An error where a coordinate in a sine, cosine or tangent of the equations, or a parameter added to something there, is so large that it
+/// is rounded by more than [`BLUR`]. An error control relative to the coordinate does not see it.
 fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
     let spec = mech.spec();
     let refuse = |what, name, x: f64, times: f64| {
         let rounding = times * x.abs() * f64::EPSILON;
+        if rounding <= BLUR {
+            return Ok(());
+        }
         let reason = format!(
             "has `{name}` = {x:e}, an angle that is rounded by {rounding:.0e} rad; take whole turns off it"
         );
-        match rounding > BLUR {
-            true => Err(Error::invalid(what, reason)),
-            false => Ok(()),
-        }
+        Err(Error::invalid(what, reason))
     };
     let mut angles = spec.structure.angles.iter();
     angles.try_for_each(|i| refuse("start", spec.coords[*i], q[*i], 1.0))?;

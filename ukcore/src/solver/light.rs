@@ -8,6 +8,8 @@
 //! A part may vanish at single states, as that of a crank in line with its rod: so a row is even once it was so at one state, with
 //! parameters as they are. What rounding is then at such states, it is at all.
 
+use std::ops::Range;
+
 use super::Solver;
 use crate::mechanism::Evaluated;
 use crate::spec::Spec;
@@ -24,13 +26,19 @@ pub(super) struct Light {
     even: Vec<bool>,
     /// Inertias of coordinates in a row, with their parts.
     parts: Vec<(f64, f64)>,
+    /// The coordinates of the quaternions whose turns the elimination has in their place.
+    quaternions: Vec<Range<usize>>,
 }
 
 impl Light {
-    pub(super) fn new(n: usize, m: usize) -> Self {
+    pub(super) fn new(spec: &Spec) -> Self {
+        let structure = &spec.structure;
+        let turned = structure.solve.turned.iter();
+        let quaternions = turned.filter_map(|row| four(structure.in_row(*row)));
         Light {
-            even: vec![false; m],
-            parts: Vec::with_capacity(n),
+            even: vec![false; spec.m()],
+            parts: Vec::with_capacity(spec.n()),
+            quaternions: quaternions.collect(),
         }
     }
 
@@ -40,55 +48,55 @@ impl Light {
     }
 
     /// Takes the rows as they are in `here`, at the coordinates `q`; whether all have been even at some state.
-    fn look(&mut self, spec: &Spec, here: &Evaluated, q: &[f64]) -> bool {
-        let (n, m) = (q.len(), here.rhs.len());
-        let mut all = true;
-        for (c, even) in self.even.iter_mut().enumerate() {
+    fn look(&mut self, turned: &[usize], here: &Evaluated, q: &[f64]) -> bool {
+        for c in 0..self.even.len() {
             // A quaternion's own length ties it to nothing.
-            if *even || spec.structure.solve.turned.contains(&c) {
+            if self.even[c] || turned.contains(&c) {
                 continue;
             }
-            let (a, mass) = (
-                |j: usize| here.jacobian[j * m + c],
-                |i: usize, j: usize| here.mass[i * n + j],
-            );
+            self.take(here, q, c, false);
+            self.even[c] = is_even(&mut self.parts);
             // Which axes a quaternion turns about decides nothing where its coordinates do not.
-            for by_turns in [false, true] {
-                let parts = &mut self.parts;
-                parts.clear();
-                let turned = |j: &usize| {
-                    by_turns && quaternions(spec).any(|first| (first..first + 4).contains(j))
-                };
-                let plain = (0..n).filter(|j| a(*j) != 0.0 && !turned(j));
-                parts.extend(plain.map(|j| (mass(j, j), a(j) / mass(j, j) * a(j))));
-                for first in quaternions(spec).filter(|_| by_turns) {
-                    for turn in turns(&q[first..]) {
-                        let along = |of: &dyn Fn(usize) -> f64| -> f64 {
-                            (0..4).map(|i| turn[i] * of(first + i)).sum()
-                        };
-                        let a = along(&a);
-                        if a != 0.0 {
-                            let inertia = along(&|i| along(&|j| mass(i, j)));
-                            parts.push((inertia, a / inertia * a));
-                        }
-                    }
-                }
-                *even |= is_even(parts);
+            if !self.even[c] && !self.quaternions.is_empty() {
+                self.take(here, q, c, true);
+                self.even[c] = is_even(&mut self.parts);
             }
-            all &= *even;
         }
-        all
+        let mut rows = self.even.iter().enumerate();
+        rows.all(|(c, even)| *even || turned.contains(&c))
+    }
+
+    /// Takes the parts of row `c`, those of quaternions by their coordinates or `by_turns`.
+    fn take(&mut self, here: &Evaluated, q: &[f64], c: usize, by_turns: bool) {
+        let (n, m) = (q.len(), here.rhs.len());
+        let a = |j: usize| here.jacobian[j * m + c];
+        let mass = |i: usize, j: usize| here.mass[i * n + j];
+        let quaternions = self.quaternions.iter().filter(|_| by_turns);
+        let turned = |j: &usize| quaternions.clone().any(|all| all.contains(j));
+        let plain = (0..n).filter(|j| a(*j) != 0.0 && !turned(j));
+        self.parts.clear();
+        self.parts
+            .extend(plain.map(|j| (mass(j, j), a(j) / mass(j, j) * a(j))));
+        for all in quaternions.clone() {
+            for turn in turns(&q[all.clone()]) {
+                let along = |of: &dyn Fn(usize) -> f64| -> f64 {
+                    turn.iter().zip(all.clone()).map(|(x, i)| x * of(i)).sum()
+                };
+                let a = along(&a);
+                if a != 0.0 {
+                    let inertia = along(&|i| along(&|j| mass(i, j)));
+                    self.parts.push((inertia, a / inertia * a));
+                }
+            }
+        }
     }
 }
 
-/// The first coordinates of the quaternions whose turns the elimination has in their place.
-fn quaternions(spec: &Spec) -> impl Iterator<Item = usize> {
-    let entries = spec.structure.jacobian_pattern;
-    spec.structure.solve.turned.iter().filter_map(move |row| {
-        let mut columns = entries.iter().filter(|(c, _)| c == row).map(|(_, j)| *j);
-        let first = columns.next()?;
-        columns.eq(first + 1..first + 4).then_some(first)
-    })
+/// These coordinates, if they are four that stand beside each other, as a quaternion's.
+fn four(coordinates: impl Iterator<Item = usize> + Clone) -> Option<Range<usize>> {
+    let first = coordinates.clone().next()?;
+    let all = first..first + 4;
+    coordinates.eq(all.clone()).then_some(all)
 }
 
 /// The changes of the quaternion e by turns about the axes of its body.
@@ -122,10 +130,10 @@ fn is_even(parts: &mut Vec<(f64, f64)>) -> bool {
 }
 
 impl Solver {
-    /// With the equations in `here`, at the coordinates `q`: whether the elimination last tried can be used as it is, inertias far apart or not.
+    /// With the equations in `here`, at the coordinates `q`: whether the elimination last tried can be used as it is.
     pub(super) fn is_even(&mut self, q: &[f64]) -> bool {
-        let spec = self.mechanism.spec();
-        if !self.dropping.is_uneven() || !self.light.look(spec, &self.here, q) {
+        let turned = self.mechanism.spec().structure.solve.turned;
+        if !self.dropping.is_uneven() || !self.light.look(turned, &self.here, q) {
             return false;
         }
         self.dropping.even_out();

@@ -227,6 +227,12 @@ impl Structure {
         self.massless.is_empty() && self.solve.regular.is_empty() && self.solve.met.is_empty()
     }
 
+    /// The coordinates that may have an entry in a row of A.
+    pub(crate) fn in_row(&self, row: usize) -> impl Iterator<Item = usize> + Clone {
+        let entries = self.jacobian_pattern.iter();
+        entries.filter(move |(c, _)| *c == row).map(|(_, j)| *j)
+    }
+
     /// Of a mechanism about which nothing is known.
     pub const EMPTY: Structure = Structure {
         straight_line: false,

@@ -107,7 +107,7 @@ fn angles(arguments: &[Id], g: &Graph, model: &Model) -> Vec<usize> {
     angles.into_iter().collect()
 }
 
-/// Parameters that are added to what varies in one of these arguments, and times which number: what is less than their rounding is lost there.
+/// Parameters that are added to what varies in one of these arguments, and times which number: what is below their rounding is lost there.
 fn phases(arguments: &[Id], g: &Graph) -> Vec<(usize, f64)> {
     let mut phases: Vec<(usize, f64)> = Vec::new();
     let mut stack: Vec<(Id, f64)> = arguments.iter().map(|id| (*id, 1.0)).collect();

@@ -207,6 +207,11 @@ pub(super) fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
     } else {
         (coordinates(input, diag)?, None)
     };
+    if input.peek(syn::token::Paren) {
+        let name = &first.name;
+        let message = format!("a member of a family is chosen in brackets: `{name}[0]: 1.0`");
+        return Err(input.error(message));
+    }
     colon(input, &first.name)?;
     let value = expression(input, diag)?;
     Ok(MassEntry {

@@ -304,10 +304,6 @@ pub(super) fn colon(input: ParseStream<'_>, name: &Ident) -> syn::Result<()> {
             format!("here stands `:`, as in `{name}: 1.0`; `=` is for equations and defaults");
         return Err(input.error(message));
     }
-    if input.peek(syn::token::Paren) {
-        let message = format!("a member of a family is chosen in brackets: `{name}[0]: 1.0`");
-        return Err(input.error(message));
-    }
     needed(input, name, || {
         format!("behind `{name}` stands `:`, as in `{name}: 1.0`; a product is written with `*`")
     })

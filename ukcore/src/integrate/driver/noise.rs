@@ -46,6 +46,15 @@ pub(super) struct Noise {
     hidden: f64,
 }
 
+/// What rounding makes of velocities in a unit of time, component by component.
+struct Rounding {
+    all: Vec<f64>,
+    /// The part of it that does not show in the estimate of an error, being the same beside a state.
+    hidden: Vec<f64>,
+    /// The part of it that is of the time.
+    of_time: Vec<f64>,
+}
+
 impl Driver<'_> {
     /// Takes the tolerance of a step of size `h`: that of the run, or what a position nearby or rounding allow.
     pub(super) fn grant(&mut self, h: f64) {
@@ -118,14 +127,18 @@ impl Driver<'_> {
     pub(super) fn measure(&mut self, seldom: usize) {
         let Equations { course, .. } = &self.equations;
         let (s, attempts) = (course.now.s, course.attempts);
-        let late = course.now.t.abs() > AFTER * s.abs();
-        let ulp = f64::EPSILON * course.now.t.abs();
+        let t = course.now.t.abs();
         if self.measured.is_none_or(|last| attempts < last + seldom) {
             return;
         }
         self.measured = Some(attempts);
         self.longest = course.h.abs();
-        let Ok([all, hidden, of_time]) = self.rounding(s) else {
+        let Ok(Rounding {
+            all,
+            hidden,
+            of_time,
+        }) = self.rounding(s)
+        else {
             return;
         };
         let tolerance = &self.settings.tolerance;
@@ -133,12 +146,13 @@ impl Driver<'_> {
         let shares: Vec<f64> = pairs.map(|(x, floor)| x / floor).collect();
         let worst = place_of_largest(&shares);
         let most = shares[worst] / tolerance.relative;
+        let late = t > AFTER * s.abs() && of_time[worst] > 0.5 * all[worst];
         let noise = Noise {
             own: self.norm(&all),
             most,
             hidden: self.norm(&hidden),
             worst,
-            time: (late && of_time[worst] > 0.5 * all[worst]).then_some(ulp),
+            time: late.then_some(f64::EPSILON * t),
         };
         if noise.own.is_finite() && most.is_finite() {
             self.noise = noise;
@@ -165,34 +179,39 @@ impl Driver<'_> {
         error_norm(still.chain(moved), &self.settings.tolerance)
     }
 
-    /// What rounding makes of the estimate of a step's error, in a unit of time; which part of it does not show there, being the same beside
-    /// a state; and which part is of the time.
-    fn rounding(&mut self, s: f64) -> Result<[Vec<f64>; 3], Cause> {
+    /// What rounding makes of the estimate of a step's error, in a unit of time.
+    fn rounding(&mut self, s: f64) -> Result<Rounding, Cause> {
         let y = self.scheme.start();
         let n = y.len() / 2;
         let (mut now, mut there) = (vec![0.0; n], vec![0.0; n]);
         self.equations.acceleration(s, y, &mut now)?;
         let blur = self.equations.problem.blur();
         let hidden: Vec<f64> = now.iter().map(|x| blur * x.abs()).collect();
-        let mut rounding = hidden.clone();
+        let (mut all, mut of_time) = (hidden.clone(), vec![0.0; n]);
         if !self.explicit {
-            return Ok([rounding, hidden, vec![0.0; n]]);
+            return Ok(Rounding {
+                all,
+                hidden,
+                of_time,
+            });
         }
         // Late in a run from a late start all that depends on time is known no better.
         let ulp = f64::EPSILON * self.equations.at(s, y).t.abs();
         (self.equations).acceleration(s + CLEARLY * ulp, y, &mut there)?;
-        let pairs = now.iter().zip(&there);
-        let of_time: Vec<f64> = pairs
-            .map(|(now, later)| STAGES * (later - now).abs() / CLEARLY)
-            .collect();
+        let pairs = of_time.iter_mut().zip(now.iter().zip(&there));
+        pairs.for_each(|(x, (now, later))| *x = STAGES * (later - now).abs() / CLEARLY);
         let mut most = vec![0.0_f64; n];
         for moved in beside(y) {
             self.equations.acceleration(s, &moved, &mut there)?;
             let pairs = most.iter_mut().zip(there.iter().zip(&now));
             pairs.for_each(|(most, (there, now))| *most = most.max((there - now).abs()));
         }
-        let all = rounding.iter_mut().zip(of_time.iter().zip(most));
-        all.for_each(|(all, (of_time, most))| *all += of_time + SAMPLED * most);
-        Ok([rounding, hidden, of_time])
+        let parts = all.iter_mut().zip(of_time.iter().zip(most));
+        parts.for_each(|(all, (of_time, most))| *all += of_time + SAMPLED * most);
+        Ok(Rounding {
+            all,
+            hidden,
+            of_time,
+        })
     }
 }

@@ -20,12 +20,7 @@ impl<'m> Lowering<'m> {
     ) -> Option<(&'m [usize], &'m [usize])> {
         let shape = &family.shape;
         if let Some(surplus) = indices.get(shape.len()) {
-            let first = family.members.first();
-            let element = first.and_then(|first| self.model.param_elements.get(*first));
-            let default = element
-                .filter(|e| *name == e.name)
-                .and_then(|e| e.default.as_ref());
-            if default.is_some_and(|default| matches!(default.value.kind, ExprKind::Error)) {
+            if self.is_damaged(name) {
                 // Reported already.
                 return None;
             }
@@ -50,6 +45,16 @@ impl<'m> Lowering<'m> {
                 None
             }
         }
+    }
+
+    /// Whether `name` is a parameter whose default is an error that is reported.
+    fn is_damaged(&self, name: &Ident) -> bool {
+        let Some(Name::Param(at)) = self.model.names.get(&name.to_string()) else {
+            return false;
+        };
+        let mut members = self.model.params[*at].members.iter();
+        let default = |i: &usize| self.model.param_elements[*i].default.as_ref();
+        members.any(|i| default(i).is_some_and(|d| matches!(d.value.kind, ExprKind::Error)))
     }
 
     /// The name of a unit, where `index` is a constant that is called so.

@@ -310,8 +310,9 @@ impl<'m> Lowering<'m> {
             };
             self.expect(id, Measured::of(dimension), what, e.loc);
             // A forgotten sign would change what is meant without a word.
-            let next = self.diag.next_to(e.loc);
-            if let Some(next) = next.filter(|_| self.graph.uses(id).constant()) {
+            if self.graph.uses(id).constant()
+                && let Some(next) = self.diag.next_to(e.loc)
+            {
                 let message = "`*` is missing before this, or `,` if it is a term of its own";
                 self.diag.error(next, message);
             }

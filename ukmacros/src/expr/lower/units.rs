@@ -133,24 +133,20 @@ impl Measured {
         }
     }
 
-    /// The unit in SI of a number of it, whose default is written as this.
+    /// The unit of a number of it, whose default is written as this.
     pub(super) fn unit(self, default: &Expr) -> NamedUnit {
         let Known(dimension, true) = self else {
             return NamedUnit::default();
         };
-        match written(default, dimension) {
-            Some(unit) => NamedUnit {
-                si: unit.si(),
-                written: match unit.is_coherent() {
-                    true => String::new(),
-                    false => unit.to_string(),
-                },
+        let unit = written(default, dimension);
+        let written = unit.filter(|unit| !unit.is_coherent());
+        NamedUnit {
+            si: match (unit, dimension) {
+                (Some(unit), _) => unit.si(),
+                (None, Dimension::NUMBER) => String::new(),
+                (None, other) => other.to_string(),
             },
-            None if dimension == Dimension::NUMBER => NamedUnit::default(),
-            None => NamedUnit {
-                si: dimension.to_string(),
-                written: String::new(),
-            },
+            written: written.map(Unit::to_string).unwrap_or_default(),
         }
     }
 
