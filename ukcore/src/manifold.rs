@@ -154,16 +154,39 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state onto the constraints but for those that all but depend on the others there: at a singular position these do not tell
-    /// in which branch of the motion it is.
+    /// Moves a state near a singular position onto the constraints: onto all of them where it is as near to its branch of the motion as that
+    /// is far from others, so that velocities change by no more than some times what they change by the others; else but for those that all
+    /// but depend on the others there, which do not tell in which branch it is.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
     pub(crate) fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        let [mut near_q, mut near_v] = [q.to_vec(), v.to_vec()];
+        self.settle_on(t, q, v, false)?;
+        let change = largest_difference(&near_v, v);
+        let before = near_v.clone();
+        let met = self.settle_on(t, &mut near_q, &mut near_v, true);
+        // Where A of all rows cannot be solved with, they tell nothing.
+        if met.is_ok_and(|met| met) && largest_difference(&before, &near_v) <= ALIKE * change {
+            q.copy_from_slice(&near_q);
+            v.copy_from_slice(&near_v);
+        }
+        Ok(())
+    }
+
+    fn settle_on(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+        all: bool,
+    ) -> Result<bool, Error> {
         let at = At::new(&self.mechanism, Level::Position, t, v);
-        self.manifold.settle(&at, q)?;
+        if !self.manifold.settle(&at, q, all)? {
+            return Ok(false);
+        }
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        self.manifold.settle(&at, v)
+        self.manifold.settle(&at, v, all)
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
@@ -190,7 +213,7 @@ impl Projector {
             let (q, v) = y.split_at_mut(n);
             self.position(t, q, v)?;
             let at = At::new(&self.mechanism, Level::Velocity, t, q);
-            self.manifold.settle(&at, v)?;
+            self.manifold.settle(&at, v, false)?;
         }
         Ok(corrections)
     }
@@ -238,6 +261,9 @@ impl Projector {
         &self.mechanism
     }
 }
+
+/// All rows change velocities between two states of a motion by no more than so many times what those beyond doubt do, in its branch.
+const ALIKE: f64 = 4.0;
 
 /// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of
 /// it.

@@ -7,7 +7,7 @@ use crate::dense::{Dense, Rows};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::scan::{all_finite, axpy};
+use crate::scan::{all_finite, axpy, largest};
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 
 /// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
@@ -19,8 +19,11 @@ const KEEP_FACTORS: f64 = 1e-2;
 /// Newton steps at most. Quadratic convergence needs about six from any useful state; some more for states far off.
 const MAX_STEPS: usize = 40;
 
-/// Newton steps from a state that is as near as an interpolant.
+/// Newton steps from a state that is as near as an interpolant; what share each is of the one before where the branch is beyond doubt, and
+/// what rounding may make of one, as a part of the largest coordinate.
 const NEARBY: usize = 3;
+const CONTRACTS: f64 = 0.25;
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
@@ -182,17 +185,29 @@ impl Manifold {
         Ok(leading(pivots, share) == pivots.len())
     }
 
-    /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.
-    pub(super) fn settle(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<(), Error> {
+    /// Moves `x` onto the constraints that count beyond doubt, or onto `all`, by as many steps as that takes from nearby. Whether each step
+    /// is no more than a share of the one before: it is small then beside what lies between the branches of the motion.
+    pub(super) fn settle(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &mut [f64],
+        all: bool,
+    ) -> Result<bool, Error> {
+        let mut before = f64::INFINITY;
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {
             self.newton.evaluate(at, x);
             at.jacobian(x, &mut self.newton.jacobian);
-            (self.factors.place, self.factors.cautious) = (None, true);
+            (self.factors.place, self.factors.cautious) = (None, !all);
             self.factors.factor(at, x, &mut self.newton, true)?;
             self.factors.solve(at, &mut self.newton);
             axpy(1.0, &self.newton.step, x);
+            let (step, size) = (largest(&self.newton.step), largest(x));
+            if all && !(step <= (CONTRACTS * before).max(ROUNDING * size)) {
+                return Ok(false);
+            }
+            before = step;
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no
