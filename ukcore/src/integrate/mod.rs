@@ -174,6 +174,10 @@ pub(crate) trait Problem {
     fn is_even(&self) -> bool {
         false
     }
+    /// The part that each coordinate belongs to, where there are several whose motions do not depend on each other; empty where all are one.
+    fn parts(&self) -> &[usize] {
+        &[]
+    }
     /// Which share of the last accelerations is rounding that does not show beside their state.
     fn blur(&mut self) -> f64 {
         0.0

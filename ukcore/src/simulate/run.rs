@@ -197,6 +197,10 @@ impl Problem for Run<'_> {
         structure.mass_constant && structure.jacobian_constant && structure.angles.is_empty()
     }
 
+    fn parts(&self) -> &[usize] {
+        self.solver.mechanism().spec().structure.parts
+    }
+
     fn blur(&mut self) -> f64 {
         self.solver.blur()
     }

@@ -28,6 +28,9 @@ pub struct Structure {
     pub angles: &'static [usize],
     /// Parameters that are added to what varies in the argument of a sine, cosine or tangent of M, Q, c, A or b, and times which number.
     pub phases: &'static [(usize, f64)],
+    /// The part of the mechanism that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do
+    /// not depend on each other; empty where all are one.
+    pub parts: &'static [usize],
     /// No explicit time anywhere.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
@@ -247,6 +250,7 @@ impl Structure {
         massless: &[],
         angles: &[],
         phases: &[],
+        parts: &[],
         scleronomic: false,
         nonideal: false,
         loaded: false,

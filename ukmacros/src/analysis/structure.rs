@@ -20,6 +20,8 @@ pub(crate) struct Structure {
     pub(crate) angles: Vec<usize>,
     /// Parameters that are added to what varies in such an argument, and times which number.
     pub(crate) phases: Vec<(usize, f64)>,
+    /// The part that each coordinate belongs to, where there are several that share no equation.
+    pub(crate) parts: Vec<usize>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
     /// The non-ideal force depends on reactions.
@@ -70,6 +72,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         massless,
         angles: angles(&arguments, g, model),
         phases: phases(&arguments, g),
+        parts: parts(dynamics, g),
         scleronomic,
         nonideal,
         loaded,
@@ -130,6 +133,81 @@ fn phases(arguments: &[Id], g: &Graph) -> Vec<(usize, f64)> {
     phases.sort_by(|(i, a), (j, b)| i.cmp(j).then(b.total_cmp(a)));
     phases.dedup_by_key(|(i, _)| *i);
     phases
+}
+
+/// The part that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do not depend on each
+/// other; empty where all are one.
+fn parts(d: &Dynamics, g: &Graph) -> Vec<usize> {
+    let (n, m) = (d.force.len(), d.rhs.len());
+    if d.lift.is_some() {
+        return Vec::new();
+    }
+    // Coordinates, then constraints, then nodes that vary with coordinates, each joined to what it is made of or stands for.
+    let mut joined = Joined(Vec::new());
+    let mut roots: Vec<(usize, Id)> = Vec::new();
+    for ((i, j), id) in &d.mass {
+        joined.join(*i, *j);
+        roots.push((*i, *id));
+    }
+    roots.extend(d.force.iter().copied().enumerate());
+    roots.extend(d.nonideal.iter().copied().enumerate());
+    for ((row, j), id) in &d.jacobian {
+        joined.join(n + row, *j);
+        roots.push((n + row, *id));
+    }
+    let rows = [&d.rhs, &d.phi, &d.rate]
+        .into_iter()
+        .flat_map(|ids| ids.iter().copied().enumerate());
+    roots.extend(rows.map(|(row, id)| (n + row, id)));
+    let moves = |id: Id| {
+        let uses = g.uses(id);
+        uses.coord || uses.velocity || uses.multiplier
+    };
+    roots.retain(|(_, id)| moves(*id));
+    roots
+        .iter()
+        .for_each(|(of, id)| joined.join(*of, n + m + id.index()));
+    let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
+    for id in g.reachable(&ids).into_iter().filter(|id| moves(*id)) {
+        let place = n + m + id.index();
+        match *g.node(id) {
+            Node::Symbol(Symbol::Coord(i) | Symbol::Velocity(i)) => joined.join(i, place),
+            Node::Symbol(Symbol::Multiplier(row)) => joined.join(n + row, place),
+            _ => g.each_operand(id, |operand| {
+                if moves(operand) {
+                    joined.join(n + m + operand.index(), place);
+                }
+            }),
+        }
+    }
+    let parts: Vec<usize> = (0..n).map(|i| joined.first(i)).collect();
+    match parts.iter().all(|part| *part == 0) {
+        true => Vec::new(),
+        false => parts,
+    }
+}
+
+/// Things that are joined, by numbers; each knows one that is less, or is the first of those it is joined with.
+struct Joined(Vec<usize>);
+
+impl Joined {
+    fn first(&mut self, mut i: usize) -> usize {
+        if i >= self.0.len() {
+            return i;
+        }
+        while self.0[i] != i {
+            self.0[i] = self.0[self.0[i]];
+            i = self.0[i];
+        }
+        i
+    }
+
+    fn join(&mut self, i: usize, j: usize) {
+        let known = self.0.len();
+        self.0.extend(known..=i.max(j).max(known.saturating_sub(1)));
+        let (i, j) = (self.first(i), self.first(j));
+        self.0[i.max(j)] = i.min(j);
+    }
 }
 
 /// The arguments of all sines, cosines and tangents of M, Q, c, A and b.

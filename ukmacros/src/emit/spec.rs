@@ -144,6 +144,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         massless,
         angles,
         phases,
+        parts,
         scleronomic,
         nonideal,
         loaded,
@@ -159,6 +160,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         let (i, times) = (number(*i), float(*times));
         quote! { (#i, #times) }
     });
+    let parts = parts.iter().map(|i| number(*i));
     let forced = forced.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
@@ -180,6 +182,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             massless: &[#(#massless),*],
             angles: &[#(#angles),*],
             phases: &[#(#phases),*],
+            parts: &[#(#parts),*],
             scleronomic: #scleronomic,
             nonideal: #nonideal,
             loaded: #loaded,

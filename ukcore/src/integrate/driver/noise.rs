@@ -20,10 +20,16 @@ const SHRUNK: f64 = 1.0 / 32.0;
 /// Roundings of the time over which a difference is nothing but that of accelerations.
 pub(super) const CLEARLY: f64 = 1024.0;
 
+/// The same where steps have got shorter by this share since then: that may be for the sake of rounding.
+const SOON: usize = 100;
+const FALLEN: f64 = 0.125;
+
 /// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
 const STAGES: f64 = 1.5;
-/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
+/// The same of what was found at some states only.
 const SAMPLED: f64 = 2.5;
+/// So many times that is granted, for steps to have room to grow: they do below 0.4 of it.
+pub(super) const ROOM: f64 = 1.6;
 
 /// Times that are so many times as far from zero as from the start of the run are late.
 const AFTER: f64 = 100.0;
@@ -39,6 +45,8 @@ pub(super) struct Noise {
     pub(super) own: f64,
     /// The largest of it in any component, over what that is allowed at rest; and which one.
     most: f64,
+    /// Both of these of the part of the mechanism that each coordinate belongs to.
+    grants: Vec<[f64; 2]>,
     worst: usize,
     /// Rounding of the time, where most of that is of it.
     time: Option<f64>,
@@ -61,17 +69,20 @@ impl Driver<'_> {
         let start = Sample::of(self.equations.course.now.t, self.scheme.start());
         let (tolerance, run) = (&mut self.tolerance, &self.settings.tolerance);
         let changed = self.passage.ease(tolerance, run, start.v);
-        let before = std::mem::replace(&mut self.granted, self.noise.own * h.abs() > 1.0);
+        let before = std::mem::replace(&mut self.granted, ROOM * self.noise.own * h.abs() > 1.0);
         if !self.granted {
             if changed || before {
                 self.scheme.tolerate(tolerance);
             }
             return;
         }
-        // So many times its tolerance for each component, but no more beside it than the largest rounding in any.
-        let [own, most] = [self.noise.own, self.noise.most].map(|noise| noise * h.abs());
+        // So many times its tolerance for each component, but no more beside it than the largest rounding in any: of its part of the
+        // mechanism, as of the others' rounding it knows nothing.
+        let grants = self.noise.grants.iter().cycle();
         self.raised.clone_from(tolerance);
-        for (floor, y) in self.raised.floors.iter_mut().zip(self.scheme.start()) {
+        let floors = self.raised.floors.iter_mut().zip(self.scheme.start());
+        for ((floor, y), grant) in floors.zip(grants) {
+            let [own, most] = grant.map(|noise| ROOM * noise * h.abs());
             let more = (own * (*floor + y.abs()) - y.abs()).min(most * *floor);
             *floor = floor.max(more);
         }
@@ -88,7 +99,7 @@ impl Driver<'_> {
         let Some(share) = self.lost(error, h) else {
             return Ok(());
         };
-        if error > self.noise.own * h.abs() {
+        if error > ROOM * self.noise.own * h.abs() {
             return Err(Refusal::Inaccurate(error));
         }
         let coordinate = self.equations.problem.coordinate(self.noise.worst);
@@ -150,6 +161,7 @@ impl Driver<'_> {
         let noise = Noise {
             own: self.norm(&all),
             most,
+            grants: self.grants(&all, &shares),
             hidden: self.norm(&hidden),
             worst,
             time: late.then_some(f64::EPSILON * t),
@@ -157,6 +169,45 @@ impl Driver<'_> {
         if noise.own.is_finite() && most.is_finite() {
             self.noise = noise;
         }
+    }
+
+    /// Attempts from one measurement to the next, after a step of size `h`.
+    pub(super) fn patience(&self, h: f64) -> usize {
+        match h.abs() < FALLEN * self.longest {
+            true => SOON,
+            false => SELDOM,
+        }
+    }
+
+    /// The rounding of each coordinate's part of the mechanism, from that of `all` coordinates, and from these over what they are allowed at
+    /// rest: in the error norm of the part alone, and the largest.
+    fn grants(&self, all: &[f64], shares: &[f64]) -> Vec<[f64; 2]> {
+        let parts = self.equations.problem.parts();
+        let one = |part: Option<usize>| {
+            let within = |i: usize| part.is_none_or(|part| parts[i] == part);
+            let errors: Vec<f64> = (all.iter().enumerate())
+                .map(|(i, x)| if within(i) { *x } else { 0.0 })
+                .collect();
+            let members = (0..all.len()).filter(|i| within(*i));
+            let most = members.clone().fold(0.0_f64, |most, i| most.max(shares[i]));
+            let whole = (all.len() as f64 / members.count() as f64).sqrt();
+            [
+                whole * self.norm(&errors),
+                most / self.settings.tolerance.relative,
+            ]
+        };
+        if parts.is_empty() {
+            return vec![one(None); all.len()];
+        }
+        let mut grants: Vec<[f64; 2]> = Vec::new();
+        for (i, part) in parts.iter().enumerate() {
+            let grant = match *part < i {
+                true => grants[*part],
+                false => one(Some(*part)),
+            };
+            grants.push(grant);
+        }
+        grants
     }
 
     /// Measures it after a step of size `h` where steps have got shorter, and accelerations have part of it now that does not show in errors.
