@@ -15,8 +15,8 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
-use crate::scan::{all_finite, largest_difference};
-use crate::solver::{Baumgarte, CLEAR, RANK_CEILING};
+use crate::scan::{all_finite, largest, largest_difference};
+use crate::solver::{Baumgarte, CLEAR};
 
 mod acceptance;
 mod level;
@@ -154,22 +154,33 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state near a singular position onto the constraints: onto all of them where it is as near to its branch of the motion as that
-    /// is far from others, so that velocities change by no more than some times what they change by the others; else but for those that all
-    /// but depend on the others there, which do not tell in which branch it is.
+    /// Moves a state near a singular position, of a motion with velocities of this `size`, onto the constraints: onto all of them where it
+    /// is as near to its branch of the motion as that is far from others, so that velocities change by no more than some times what they
+    /// change by the others; else but for those that all but vanish or depend on the others there, which do not tell in which branch it is.
+    /// Where even so velocities become another's, it stays as it is.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
-    pub(crate) fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
-        let [mut near_q, mut near_v] = [q.to_vec(), v.to_vec()];
+    pub(crate) fn settle(
+        &mut self,
+        t: f64,
+        [q, v]: [&mut [f64]; 2],
+        size: f64,
+    ) -> Result<(), Error> {
+        let before = [q.to_vec(), v.to_vec()];
+        let [mut near_q, mut near_v] = before.clone();
         self.settle_on(t, q, v, false)?;
-        let change = largest_difference(&near_v, v);
-        let before = near_v.clone();
+        let change = largest_difference(&before[1], v);
         let met = self.settle_on(t, &mut near_q, &mut near_v, true);
         // Where A of all rows cannot be solved with, they tell nothing.
-        if met.is_ok_and(|met| met) && largest_difference(&before, &near_v) <= ALIKE * change {
+        if met.is_ok_and(|met| met) && largest_difference(&before[1], &near_v) <= ALIKE * change {
             q.copy_from_slice(&near_q);
             v.copy_from_slice(&near_v);
+        }
+        let size = size.max(largest(&before[1]));
+        if !(largest_difference(&before[1], v) <= ANOTHER * size) {
+            q.copy_from_slice(&before[0]);
+            v.copy_from_slice(&before[1]);
         }
         Ok(())
     }
@@ -191,8 +202,7 @@ impl Projector {
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
     /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where velocities before
-    /// the projection and behind it differ by `too_much` there, the state is interpolated `again`, and they are as these constraints leave
-    /// them.
+    /// the projection and behind it differ by `too_much`, or no projection is found, the state is interpolated `again`, and settles.
     ///
     /// # Errors
     /// As [`Projector::position`].
@@ -200,22 +210,28 @@ impl Projector {
         &mut self,
         t: f64,
         y: &mut [f64],
-        too_much: impl FnOnce(&[f64], &[f64]) -> bool,
+        too_much: impl Fn(&[f64], &[f64]) -> bool,
         again: impl FnOnce(&mut [f64]),
     ) -> Result<[Correction; 2], Error> {
         let n = y.len() / 2;
         let (q, v) = y.split_at_mut(n);
-        let corrections = [self.position(t, q, v)?, self.velocity(t, q, v)?];
-        let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        let changed = corrections[1].norm > 0.0 && too_much(&self.manifold.start, v);
-        if changed && !self.manifold.keep(&at, v, RANK_CEILING)? {
-            again(y);
-            let (q, v) = y.split_at_mut(n);
-            self.position(t, q, v)?;
-            let at = At::new(&self.mechanism, Level::Velocity, t, q);
-            self.manifold.settle(&at, v, false)?;
+        let moved = self.position(t, q, v);
+        let moved = moved.and_then(|position| Ok([position, self.velocity(t, q, v)?]));
+        let fits = match &moved {
+            Ok([_, velocity]) => velocity.norm == 0.0 || !too_much(&self.manifold.start, v),
+            Err(error) => !matches!(error, Error::OffConstraint { .. }),
+        };
+        if fits {
+            return moved;
         }
-        Ok(corrections)
+        again(y);
+        let (q, v) = y.split_at_mut(n);
+        let before = v.to_vec();
+        self.settle(t, [q, v], 0.0)?;
+        moved.or_else(|error| match too_much(&before, v) {
+            true => Err(error),
+            false => Ok(Default::default()),
+        })
     }
 
     /// Moves q, the first of `moved`, onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; the other is
@@ -261,6 +277,9 @@ impl Projector {
         &self.mechanism
     }
 }
+
+/// A change of velocities by more than this share of the largest is no correction.
+const ANOTHER: f64 = 0.25;
 
 /// All rows change velocities between two states of a motion by no more than so many times what those beyond doubt do, in its branch.
 const ALIKE: f64 = 4.0;

@@ -185,7 +185,7 @@ impl Manifold {
         Ok(leading(pivots, share) == pivots.len())
     }
 
-    /// Moves `x` onto the constraints that count beyond doubt, or onto `all`, by as many steps as that takes from nearby. Whether each step
+    /// Moves `x` onto the constraints that count beyond doubt, and do not all but vanish there, or onto `all`, by as many steps as that takes from nearby. Whether each step
     /// is no more than a share of the one before: it is small then beside what lies between the branches of the motion.
     pub(super) fn settle(
         &mut self,
@@ -198,7 +198,7 @@ impl Manifold {
             self.newton.evaluate(at, x);
             at.jacobian(x, &mut self.newton.jacobian);
             (self.factors.place, self.factors.cautious) = (None, !all);
-            self.factors.factor(at, x, &mut self.newton, true)?;
+            self.factors.factor(at, x, &mut self.newton, all)?;
             self.factors.solve(at, &mut self.newton);
             axpy(1.0, &self.newton.step, x);
             let (step, size) = (largest(&self.newton.step), largest(x));

@@ -10,7 +10,7 @@ use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
 use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
-use crate::scan::{largest, largest_difference};
+use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -216,14 +216,6 @@ impl<'s> Recorder<'s> {
 /// Counts as the error of a step that is too long to tell how events go.
 const UNTOLD: f64 = 1e3;
 
-/// A change of velocities by more than this share of the largest is no correction.
-const ANOTHER: f64 = 0.25;
-
-/// Whether these velocities, of a motion with velocities of this `size`, are not `v` but for a correction.
-fn is_another(v: &[f64], other: &[f64], size: f64) -> bool {
-    largest_difference(v, other) > ANOTHER * size.max(largest(v))
-}
-
 /// The integrals at `t`.
 fn sums<'a>(
     integrals: &'a mut Option<Integrals>,
@@ -285,15 +277,8 @@ impl States for Within<'_, '_> {
         let n = self.step.new.q.len();
         let (q, v) = y.split_at_mut(n);
         if self.step.nearby {
-            let between = [q.to_vec(), v.to_vec()];
-            self.projector.settle(t, q, v)?;
-            // The error of an interpolant may have it in another branch, whose velocities are others.
             let ends = [self.step.old.v, self.step.new.v].map(largest);
-            if is_another(&between[1], v, ends[0].max(ends[1])) {
-                q.copy_from_slice(&between[0]);
-                v.copy_from_slice(&between[1]);
-            }
-            return Ok(());
+            return self.projector.settle(t, [q, v], ends[0].max(ends[1]));
         }
         let Within {
             projector,

@@ -99,7 +99,7 @@ impl Driver<'_> {
         let Some(share) = self.lost(error, h) else {
             return Ok(());
         };
-        if error > ROOM * self.noise.own * h.abs() {
+        if error > self.noise.own * h.abs() {
             return Err(Refusal::Inaccurate(error));
         }
         let coordinate = self.equations.problem.coordinate(self.noise.worst);
