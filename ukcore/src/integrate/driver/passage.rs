@@ -490,7 +490,10 @@ impl Driver<'_> {
     /// Refuses a step that is not planned for the position `found`.
     fn judge(&mut self, mut found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
         let Equations {
-            course, problem, ..
+            course,
+            problem,
+            switches,
+            ..
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let left = course.ahead(found.t);
@@ -545,8 +548,12 @@ impl Driver<'_> {
             (left - 0.5 * (from + to) * size).abs() <= OFF * size
         } else {
             // No further than where the next step, as long, goes over it: one held to less would be shorter each time, and never get there.
-            let most = left * (1.0 + OFF) / (1.0 + 0.5 * (from + to));
-            size <= most.max(0.51 * left) || trial.last && size < left
+            let middle = 0.5 * (from + to);
+            let most = left * (1.0 + OFF) / (1.0 + middle);
+            // A run that ends so near before it that a step over it may go on behind its end is to be read off that.
+            let bounded = self.passage.bounded || !switches.is_empty();
+            let before = bounded || left - size > OFF * left / middle;
+            size <= most.max(0.51 * left) || trial.last && size < left && before
         };
         // Stages of a step that is far too long tell nothing of the motion.
         if made && found.gap > 0.0 && left > 4.0 * found.gap {
