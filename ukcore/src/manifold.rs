@@ -154,10 +154,10 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state near a singular position, of a motion with velocities of this `size`, onto the constraints: onto all of them where it
-    /// is as near to its branch of the motion as that is far from others, so that velocities change by no more than some times what they
-    /// change by the others; else but for those that all but vanish or depend on the others there, which do not tell in which branch it is.
-    /// Where even so velocities become another's, it stays as it is.
+    /// Moves a state near a singular position, of a motion with velocities of this `size`, onto the constraints: positions onto all of them
+    /// where that is near beside what lies between branches, velocities where they change by no more than some times what they change by the
+    /// others; else but for those that all but vanish or depend on the others there, which do not tell in which branch it is. Where even so
+    /// velocities become another's, it stays as it is.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
@@ -168,36 +168,27 @@ impl Projector {
         size: f64,
     ) -> Result<(), Error> {
         let before = [q.to_vec(), v.to_vec()];
-        let [mut near_q, mut near_v] = before.clone();
-        self.settle_on(t, q, v, false)?;
-        let change = largest_difference(&before[1], v);
-        let met = self.settle_on(t, &mut near_q, &mut near_v, true);
+        let mut near = q.to_vec();
+        let at = At::new(&self.mechanism, Level::Position, t, v);
         // Where A of all rows cannot be solved with, they tell nothing.
-        if met.is_ok_and(|met| met) && largest_difference(&before[1], &near_v) <= ALIKE * change {
-            q.copy_from_slice(&near_q);
-            v.copy_from_slice(&near_v);
+        match self.manifold.settle(&at, &mut near, true) {
+            Ok(true) => q.copy_from_slice(&near),
+            _ => drop(self.manifold.settle(&at, q, false)?),
+        }
+        let at = At::new(&self.mechanism, Level::Velocity, t, q);
+        self.manifold.settle(&at, v, false)?;
+        near.copy_from_slice(&before[1]);
+        let met = self.manifold.settle(&at, &mut near, true);
+        let change = largest_difference(&before[1], v);
+        if met.is_ok_and(|met| met) && largest_difference(&before[1], &near) <= ALIKE * change {
+            v.copy_from_slice(&near);
         }
         let size = size.max(largest(&before[1]));
-        if !(largest_difference(&before[1], v) <= ANOTHER * size) {
+        if largest_difference(&before[1], v) > ANOTHER * size {
             q.copy_from_slice(&before[0]);
             v.copy_from_slice(&before[1]);
         }
         Ok(())
-    }
-
-    fn settle_on(
-        &mut self,
-        t: f64,
-        q: &mut [f64],
-        v: &mut [f64],
-        all: bool,
-    ) -> Result<bool, Error> {
-        let at = At::new(&self.mechanism, Level::Position, t, v);
-        if !self.manifold.settle(&at, q, all)? {
-            return Ok(false);
-        }
-        let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        self.manifold.settle(&at, v, all)
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but

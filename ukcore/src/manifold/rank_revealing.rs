@@ -196,7 +196,14 @@ impl Manifold {
         let mut before = f64::INFINITY;
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {
             self.newton.evaluate(at, x);
-            at.jacobian(x, &mut self.newton.jacobian);
+            self.newton.weigh(at, x);
+            if all {
+                // Of what is left rounding has its share, which rows that all but depend on others would make more of.
+                self.newton.measure(at, x, &mut self.noise, None);
+                if self.newton.violated(at).next().is_none() {
+                    break;
+                }
+            }
             (self.factors.place, self.factors.cautious) = (None, !all);
             self.factors.factor(at, x, &mut self.newton, all)?;
             self.factors.solve(at, &mut self.newton);

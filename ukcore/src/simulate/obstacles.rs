@@ -2,7 +2,7 @@
 
 use super::crossing;
 use super::standstill;
-use super::vanishing::{Loss, Vanishing};
+use super::vanishing::{BEFORE, Loss, Vanishing, between_states};
 use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
 use crate::diagnose;
@@ -223,7 +223,12 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
 }
 
 /// The same of a row by itself.
-fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<Singular> {
+fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Option<Singular> {
+    let stood = found.near.t;
+    if found.reached < UNTOLD && !found.rest {
+        // Where it stands nothing but rounding gives the row a direction.
+        found.near = between_states(old, Sample::from(&found.near), 1.0 - BEFORE);
+    }
     let Vanishing {
         row, near, reached, ..
     } = &found;
@@ -253,7 +258,7 @@ fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<S
         let soon = ahead.abs() <= SOON * (near.t - found.largest).abs();
         (nearly && soon).then_some(near.t + ahead)
     };
-    let reversed = Some(found.t).filter(|t| *t != near.t);
+    let reversed = Some(found.t).filter(|t| *t != stood);
     if found.rest {
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
@@ -284,7 +289,7 @@ fn vanishing_row(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<S
     let told = if found.rest { *reached } else { found.least } >= UNTOLD;
     let missed = (told && met.is_none()).then_some(found.least);
     let constraints = vec![spec.constraints[*row].name.to_owned()];
-    (t != near.t).then(|| Singular::seen(t, way, missed, *reached, constraints))
+    (t != stood).then(|| Singular::seen(t, way, missed, *reached, constraints))
 }
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.

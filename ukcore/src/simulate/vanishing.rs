@@ -48,7 +48,7 @@ const INDEPENDENT: f64 = 1e-9;
 
 /// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
 /// direction.
-const BEFORE: f64 = 0.01;
+pub(super) const BEFORE: f64 = 0.01;
 
 /// Parts of a step at which rows are looked at first, so unevenly that no turns come out even at all of them.
 const LOOKS: [f64; 5] = [0.0, 0.19, 0.45, 0.68, 1.0];
@@ -546,7 +546,7 @@ impl RowWatch {
 }
 
 /// The state at a part of the step from `old` to `new`, on the cubics through both.
-fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> State {
+pub(super) fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> State {
     let (n, h) = (old.q.len(), new.t - old.t);
     let mut state = State {
         t: old.t + part * h,
