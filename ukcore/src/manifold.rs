@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
-use crate::scan::{all_finite, largest, largest_difference};
+use crate::scan::{all_finite, largest_difference};
 use crate::solver::{Baumgarte, CLEAR};
 
 mod acceptance;
@@ -154,21 +154,14 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state near a singular position, of a motion with velocities of this `size`, onto the constraints: positions onto all of them
-    /// where that is near beside what lies between branches, velocities where they change by no more than some times what they change by the
-    /// others; else but for those that all but vanish or depend on the others there, which do not tell in which branch it is. Where even so
-    /// velocities become another's, it stays as it is.
+    /// Moves a state near a singular position onto the constraints: positions onto all of them where that is near beside what lies between
+    /// branches, velocities where they change by no more than some times what they change by the others; else but for those that all but
+    /// vanish or depend on the others there, which do not tell in which branch it is.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
-    pub(crate) fn settle(
-        &mut self,
-        t: f64,
-        [q, v]: [&mut [f64]; 2],
-        size: f64,
-    ) -> Result<(), Error> {
-        let before = [q.to_vec(), v.to_vec()];
-        let mut near = q.to_vec();
+    pub(crate) fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        let (before, mut near) = (v.to_vec(), q.to_vec());
         let at = At::new(&self.mechanism, Level::Position, t, v);
         // Where A of all rows cannot be solved with, they tell nothing.
         match self.manifold.settle(&at, &mut near, true) {
@@ -177,23 +170,18 @@ impl Projector {
         }
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
         self.manifold.settle(&at, v, false)?;
-        near.copy_from_slice(&before[1]);
+        near.copy_from_slice(&before);
         let met = self.manifold.settle(&at, &mut near, true);
-        let change = largest_difference(&before[1], v);
-        if met.is_ok_and(|met| met) && largest_difference(&before[1], &near) <= ALIKE * change {
+        let change = largest_difference(&before, v);
+        if met.is_ok_and(|met| met) && largest_difference(&before, &near) <= ALIKE * change {
             v.copy_from_slice(&near);
-        }
-        let size = size.max(largest(&before[1]));
-        if largest_difference(&before[1], v) > ANOTHER * size {
-            q.copy_from_slice(&before[0]);
-            v.copy_from_slice(&before[1]);
         }
         Ok(())
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
     /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where velocities before
-    /// the projection and behind it differ by `too_much`, or no projection is found, the state is interpolated `again`, and settles.
+    /// the projection and behind it differ by `too_much` there, or no projection is found, the state is interpolated `again`, and settles.
     ///
     /// # Errors
     /// As [`Projector::position`].
@@ -201,7 +189,7 @@ impl Projector {
         &mut self,
         t: f64,
         y: &mut [f64],
-        too_much: impl Fn(&[f64], &[f64]) -> bool,
+        too_much: impl FnOnce(&[f64], &[f64]) -> bool,
         again: impl FnOnce(&mut [f64]),
     ) -> Result<[Correction; 2], Error> {
         let n = y.len() / 2;
@@ -212,16 +200,17 @@ impl Projector {
             Ok([_, velocity]) => velocity.norm == 0.0 || !too_much(&self.manifold.start, v),
             Err(error) => !matches!(error, Error::OffConstraint { .. }),
         };
-        if fits {
+        let at = At::new(&self.mechanism, Level::Velocity, t, q);
+        if fits || self.manifold.is_clear(&at, v)? {
             return moved;
         }
         again(y);
         let (q, v) = y.split_at_mut(n);
-        let before = v.to_vec();
-        self.settle(t, [q, v], 0.0)?;
-        moved.or_else(|error| match too_much(&before, v) {
-            true => Err(error),
-            false => Ok(Default::default()),
+        self.settle(t, q, v)?;
+        let at = At::new(&self.mechanism, Level::Position, t, v);
+        moved.or_else(|error| match self.manifold.is_met(&at, q) {
+            true => Ok(Default::default()),
+            false => Err(error),
         })
     }
 
@@ -268,9 +257,6 @@ impl Projector {
         &self.mechanism
     }
 }
-
-/// A change of velocities by more than this share of the largest is no correction.
-const ANOTHER: f64 = 0.25;
 
 /// All rows change velocities between two states of a motion by no more than so many times what those beyond doubt do, in its branch.
 const ALIKE: f64 = 4.0;

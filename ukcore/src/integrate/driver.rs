@@ -14,7 +14,7 @@ use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
 use crate::scan::all_finite;
-use noise::{CLEARLY, LOST, Noise, OFTEN, ROOM, SELDOM};
+use noise::{CLEARLY, LOST, Noise, OFTEN, SELDOM};
 use passage::Passage;
 use switching::Goal;
 
@@ -207,7 +207,7 @@ impl Driver<'_> {
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
         // Steps may be so short that none is refused for the rounding in it.
-        self.measure(self.patience(h));
+        self.measure(SELDOM);
         self.uncover(h);
         (self.passage.plans, self.passage.astray) = (0, false);
         let next = self.scheme.accepted(h, error).abs();
@@ -261,7 +261,7 @@ impl Driver<'_> {
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
         self.equations.switches.doubt = false;
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
-        let rounding = f64::max(1.0, ROOM * self.noise.own * trial.h.abs());
+        let rounding = f64::max(1.0, self.noise.own * trial.h.abs());
         self.grant(trial.h);
         let made = self.make(trial);
         self.survey(trial, &made)?;

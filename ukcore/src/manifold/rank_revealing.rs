@@ -185,6 +185,22 @@ impl Manifold {
         Ok(leading(pivots, share) == pivots.len())
     }
 
+    /// Whether all constraints count beyond doubt at `x`: none all but vanishes there, or is implied by others.
+    pub(super) fn is_clear(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
+        at.jacobian(x, &mut self.newton.jacobian);
+        (self.factors.place, self.factors.cautious) = (None, true);
+        self.factors.factor(at, x, &mut self.newton, false)?;
+        Ok(leading(self.factors.dense.cod.pivots(), RANK_CEILING) == at.rows())
+    }
+
+    /// Whether all constraints are met at `x` but for what rounding leaves of them.
+    pub(super) fn is_met(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
+        self.newton.evaluate(at, x);
+        self.newton.weigh(at, x);
+        self.newton.measure(at, x, &mut self.noise, None);
+        self.newton.violated(at).next().is_none()
+    }
+
     /// Moves `x` onto the constraints that count beyond doubt, and do not all but vanish there, or onto `all`, by as many steps as that takes from nearby. Whether each step
     /// is no more than a share of the one before: it is small then beside what lies between the branches of the motion.
     pub(super) fn settle(
@@ -195,15 +211,12 @@ impl Manifold {
     ) -> Result<bool, Error> {
         let mut before = f64::INFINITY;
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {
-            self.newton.evaluate(at, x);
-            self.newton.weigh(at, x);
-            if all {
-                // Of what is left rounding has its share, which rows that all but depend on others would make more of.
-                self.newton.measure(at, x, &mut self.noise, None);
-                if self.newton.violated(at).next().is_none() {
-                    break;
-                }
+            // Of what rounding leaves rows that all but depend on others would make more.
+            if all && self.is_met(at, x) {
+                break;
             }
+            self.newton.evaluate(at, x);
+            at.jacobian(x, &mut self.newton.jacobian);
             (self.factors.place, self.factors.cautious) = (None, !all);
             self.factors.factor(at, x, &mut self.newton, all)?;
             self.factors.solve(at, &mut self.newton);

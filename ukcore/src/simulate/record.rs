@@ -10,7 +10,6 @@ use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
 use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
-use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -277,8 +276,7 @@ impl States for Within<'_, '_> {
         let n = self.step.new.q.len();
         let (q, v) = y.split_at_mut(n);
         if self.step.nearby {
-            let ends = [self.step.old.v, self.step.new.v].map(largest);
-            return self.projector.settle(t, [q, v], ends[0].max(ends[1]));
+            return self.projector.settle(t, q, v);
         }
         let Within {
             projector,

@@ -20,16 +20,10 @@ const SHRUNK: f64 = 1.0 / 32.0;
 /// Roundings of the time over which a difference is nothing but that of accelerations.
 pub(super) const CLEARLY: f64 = 1024.0;
 
-/// The same where steps have got shorter by this share since then: that may be for the sake of rounding.
-const SOON: usize = 100;
-const FALLEN: f64 = 0.125;
-
 /// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
 const STAGES: f64 = 1.5;
-/// The same of what was found at some states only.
+/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
 const SAMPLED: f64 = 2.5;
-/// So many times that is granted, for steps to have room to grow: they do below 0.4 of it.
-pub(super) const ROOM: f64 = 1.6;
 
 /// Times that are so many times as far from zero as from the start of the run are late.
 const AFTER: f64 = 100.0;
@@ -69,7 +63,7 @@ impl Driver<'_> {
         let start = Sample::of(self.equations.course.now.t, self.scheme.start());
         let (tolerance, run) = (&mut self.tolerance, &self.settings.tolerance);
         let changed = self.passage.ease(tolerance, run, start.v);
-        let before = std::mem::replace(&mut self.granted, ROOM * self.noise.own * h.abs() > 1.0);
+        let before = std::mem::replace(&mut self.granted, self.noise.own * h.abs() > 1.0);
         if !self.granted {
             if changed || before {
                 self.scheme.tolerate(tolerance);
@@ -82,7 +76,7 @@ impl Driver<'_> {
         self.raised.clone_from(tolerance);
         let floors = self.raised.floors.iter_mut().zip(self.scheme.start());
         for ((floor, y), grant) in floors.zip(grants) {
-            let [own, most] = grant.map(|noise| ROOM * noise * h.abs());
+            let [own, most] = grant.map(|noise| noise * h.abs());
             let more = (own * (*floor + y.abs()) - y.abs()).min(most * *floor);
             *floor = floor.max(more);
         }
@@ -168,14 +162,6 @@ impl Driver<'_> {
         };
         if noise.own.is_finite() && most.is_finite() {
             self.noise = noise;
-        }
-    }
-
-    /// Attempts from one measurement to the next, after a step of size `h`.
-    pub(super) fn patience(&self, h: f64) -> usize {
-        match h.abs() < FALLEN * self.longest {
-            true => SOON,
-            false => SELDOM,
         }
     }
 
