@@ -15,6 +15,7 @@ mod integrals;
 mod kinks;
 mod light;
 mod massless;
+mod met;
 mod misses;
 mod orientations;
 mod parting;

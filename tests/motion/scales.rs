@@ -268,3 +268,39 @@ fn members_of_an_ensemble_have_their_own_size() {
         assert!((angle - alone).abs() < 1e-10, "{s:e}: {angle} and {alone}");
     }
 }
+
+ukcore::multibody! {
+    /// Two oscillators that know nothing of each other, of which one swings `far` away.
+    Apart {
+        params { far = 0.0 }
+        coords { x, y }
+        mass { x: 1, y: 1 }
+        potential { 0.5 * sq(x - far), 0.5 * sq(y) }
+    }
+}
+
+#[test]
+fn rounding_of_one_part_is_granted_to_no_other() {
+    assert_eq!(Apart::SPEC.structure.parts, [0, 1]);
+    for (far, method, tolerance) in [
+        (1e9, Method::Dop853, 1e-12),
+        (1e9, Method::Dopri5, 1e-11),
+        (1e7, Method::Dop853, 1e-13),
+    ] {
+        let start = State {
+            t: 0.0,
+            q: vec![far + 1.0, 1.0],
+            v: vec![0.0; 2],
+        };
+        let run = Simulation::new(Apart { far }).start(start);
+        let run = run.method(method).tolerance(tolerance).until(10.0);
+        let run = run.expect("a motion");
+        let end = run.last().expect("an end");
+        let off = (end.q[1] - 10.0_f64.cos()).abs();
+        assert!(
+            off < 5.0 * tolerance,
+            "{far:e}, {method}, {tolerance:e}: {off:e}"
+        );
+        assert!(run.work().rounded > 0, "{far:e}, {method}, {tolerance:e}");
+    }
+}
