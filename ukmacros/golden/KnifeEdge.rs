@@ -242,6 +242,7 @@ const _: () = {
                 massless: &[],
                 angles: &[2],
                 phases: &[],
+                parts: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -218,6 +218,7 @@ const _: () = {
                 massless: &[0],
                 angles: &[],
                 phases: &[],
+                parts: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

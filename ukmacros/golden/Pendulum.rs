@@ -216,6 +216,7 @@ const _: () = {
                 massless: &[],
                 angles: &[],
                 phases: &[],
+                parts: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -255,6 +255,7 @@ const _: () = {
                 massless: &[],
                 angles: &[],
                 phases: &[],
+                parts: &[],
                 scleronomic: true,
                 nonideal: true,
                 loaded: false,

@@ -222,7 +222,8 @@ impl Manifold {
             self.factors.solve(at, &mut self.newton);
             axpy(1.0, &self.newton.step, x);
             let (step, size) = (largest(&self.newton.step), largest(x));
-            if all && !(step <= (CONTRACTS * before).max(ROUNDING * size)) {
+            let small = step <= (CONTRACTS * before).max(ROUNDING * size);
+            if all && !small {
                 return Ok(false);
             }
             before = step;
