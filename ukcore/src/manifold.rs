@@ -154,14 +154,14 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state near a singular position onto the constraints: positions onto all of them where that is near beside what lies between
-    /// branches, velocities where they change by no more than some times what they change by the others; else but for those that all but
-    /// vanish or depend on the others there, which do not tell in which branch it is.
+    /// Moves a state near a singular position onto the constraints but for those that all but vanish or depend on the others there, which do
+    /// not tell in which branch it is, and make more of an error of velocities than these have; its positions onto all where that is near
+    /// beside what lies between branches.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
     pub(crate) fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
-        let (before, mut near) = (v.to_vec(), q.to_vec());
+        let mut near = q.to_vec();
         let at = At::new(&self.mechanism, Level::Position, t, v);
         // Where A of all rows cannot be solved with, they tell nothing.
         match self.manifold.settle(&at, &mut near, true) {
@@ -169,14 +169,7 @@ impl Projector {
             _ => drop(self.manifold.settle(&at, q, false)?),
         }
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        self.manifold.settle(&at, v, false)?;
-        near.copy_from_slice(&before);
-        let met = self.manifold.settle(&at, &mut near, true);
-        let change = largest_difference(&before, v);
-        if met.is_ok_and(|met| met) && largest_difference(&before, &near) <= ALIKE * change {
-            v.copy_from_slice(&near);
-        }
-        Ok(())
+        self.manifold.settle(&at, v, false).map(drop)
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
@@ -257,9 +250,6 @@ impl Projector {
         &self.mechanism
     }
 }
-
-/// All rows change velocities between two states of a motion by no more than so many times what those beyond doubt do, in its branch.
-const ALIKE: f64 = 4.0;
 
 /// A change of more than this many ε of the length in the constraints is none by rounding of rows beyond doubt: those are met to 64 ε of
 /// it.
