@@ -279,6 +279,24 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// Coordinates that know of each other by a potential, a force, a constraint, and what a constraint bears; and one that is by itself.
+    Joined {
+        coords { a, b, c, d, e, f, g, lone }
+        mass { a: 1, b: 1, c: 1, d: 1, e: 1, f: 1, g: 1, lone: 1 }
+        potential { 0.5 * sq(a - b), 0.5 * sq(lone) }
+        force { c: -dot(d), g: -g }
+        holonomic { wall: e = 0.0 }
+        nonideal { f: -0.1 * abs(reaction(wall)) * dot(f) }
+    }
+}
+
+#[test]
+fn parts_are_what_no_equation_joins() {
+    // a with b, c with d, e with f by what the wall bears, g and lone by themselves.
+    assert_eq!(Joined::SPEC.structure.parts, [0, 0, 2, 2, 4, 4, 6, 7]);
+}
+
 #[test]
 fn rounding_of_one_part_is_granted_to_no_other() {
     assert_eq!(Apart::SPEC.structure.parts, [0, 1]);

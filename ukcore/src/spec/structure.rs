@@ -29,7 +29,7 @@ pub struct Structure {
     /// Parameters that are added to what varies in the argument of a sine, cosine or tangent of M, Q, c, A or b, and times which number.
     pub phases: &'static [(usize, f64)],
     /// The part of the mechanism that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do
-    /// not depend on each other; empty where all are one.
+    /// not depend on each other; empty where all are one, and where M is not expanded, so that nothing tells.
     pub parts: &'static [usize],
     /// No explicit time anywhere.
     pub scleronomic: bool,

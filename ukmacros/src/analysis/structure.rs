@@ -136,7 +136,7 @@ fn phases(arguments: &[Id], g: &Graph) -> Vec<(usize, f64)> {
 }
 
 /// The part that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do not depend on each
-/// other; empty where all are one.
+/// other; empty where all are one, and where M is not expanded, so that nothing tells.
 fn parts(d: &Dynamics, g: &Graph) -> Vec<usize> {
     let (n, m) = (d.force.len(), d.rhs.len());
     if d.lift.is_some() {
