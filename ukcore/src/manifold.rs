@@ -16,7 +16,7 @@ use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
-use crate::solver::{Baumgarte, CLEAR};
+use crate::solver::Baumgarte;
 
 mod acceptance;
 mod level;
@@ -154,9 +154,9 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves a state near a singular position onto the constraints but for those that all but vanish or depend on the others there, which do
-    /// not tell in which branch it is, and make more of an error of velocities than these have; its positions onto all where that is near
-    /// beside what lies between branches.
+    /// Moves a state near a singular position onto the constraints but for those that all but vanish or depend on the others there, which
+    /// do not tell in which branch it is, and make more of an error of velocities than these have; its positions onto all where that is
+    /// near beside what lies between branches.
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
@@ -164,12 +164,12 @@ impl Projector {
         let mut near = q.to_vec();
         let at = At::new(&self.mechanism, Level::Position, t, v);
         // Where A of all rows cannot be solved with, they tell nothing.
-        match self.manifold.settle(&at, &mut near, true) {
+        match self.manifold.settle_on_all(&at, &mut near) {
             Ok(true) => q.copy_from_slice(&near),
-            _ => drop(self.manifold.settle(&at, q, false)?),
+            _ => self.manifold.settle(&at, q)?,
         }
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
-        self.manifold.settle(&at, v, false).map(drop)
+        self.manifold.settle(&at, v)
     }
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
@@ -368,7 +368,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let still = at.mech.spec().structure.scleronomic;
         // Towards a singular position rounding may lead into another branch.
-        if at.rows() == 0 || still && !self.keep(at, x, CLEAR).is_ok_and(|clear| clear) {
+        if at.rows() == 0 || still && !self.keep(at, x).is_ok_and(|clear| clear) {
             return;
         }
         let newton = &mut self.newton;

@@ -174,7 +174,8 @@ pub(crate) trait Problem {
     fn is_even(&self) -> bool {
         false
     }
-    /// The part that each coordinate belongs to, where there are several whose motions do not depend on each other; empty where all are one.
+    /// The part that each coordinate belongs to, where there are several whose motions do not depend on each other; empty where all are
+    /// one.
     fn parts(&self) -> &[usize] {
         &[]
     }

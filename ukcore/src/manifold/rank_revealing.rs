@@ -8,7 +8,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::scan::{all_finite, axpy, largest};
-use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
+use crate::solver::{CLEAR, RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 
 /// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
@@ -173,27 +173,29 @@ impl Factors {
 }
 
 impl Manifold {
-    /// Whether each constraint keeps more than this `share` of itself at `x`, once what the others imply is taken off.
-    pub(super) fn keep(&mut self, at: &At<'_, f64>, x: &[f64], share: f64) -> Result<bool, Error> {
+    /// Whether each constraint is clear of the others at `x`, once what they imply is taken off.
+    pub(super) fn keep(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
         if at.rows() == 0 {
             return Ok(true);
         }
-        at.jacobian(x, &mut self.newton.jacobian);
-        (self.factors.place, self.factors.cautious) = (None, true);
-        self.factors.factor(at, x, &mut self.newton, true)?;
-        let pivots = self.factors.dense.cod.pivots();
-        Ok(leading(pivots, share) == pivots.len())
+        let pivots = self.pivots(at, x, true)?;
+        Ok(leading(pivots, CLEAR) == pivots.len())
     }
 
     /// Whether all constraints count beyond doubt at `x`: none all but vanishes there, or is implied by others.
     pub(super) fn is_clear(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
-        at.jacobian(x, &mut self.newton.jacobian);
-        (self.factors.place, self.factors.cautious) = (None, true);
-        self.factors.factor(at, x, &mut self.newton, false)?;
-        Ok(leading(self.factors.dense.cod.pivots(), RANK_CEILING) == at.rows())
+        Ok(leading(self.pivots(at, x, false)?, RANK_CEILING) == at.rows())
     }
 
-    /// Whether all constraints are met at `x` but for what rounding leaves of them.
+    /// What rows of A have beside the others at `x`, in a motion that is `passing` a place where some vanish, or not.
+    fn pivots(&mut self, at: &At<'_, f64>, x: &[f64], passing: bool) -> Result<&[f64], Error> {
+        at.jacobian(x, &mut self.newton.jacobian);
+        (self.factors.place, self.factors.cautious) = (None, true);
+        self.factors.factor(at, x, &mut self.newton, passing)?;
+        Ok(self.factors.dense.cod.pivots())
+    }
+
+    /// Whether all constraints are met at `x` but for what rounding leaves of them; takes residuals and A.
     pub(super) fn is_met(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
         self.newton.evaluate(at, x);
         self.newton.weigh(at, x);
@@ -201,34 +203,48 @@ impl Manifold {
         self.newton.violated(at).next().is_none()
     }
 
-    /// Moves `x` onto the constraints that count beyond doubt, and do not all but vanish there, or onto `all`, by as many steps as that takes from nearby. Whether each step
-    /// is no more than a share of the one before: it is small then beside what lies between the branches of the motion.
-    pub(super) fn settle(
-        &mut self,
-        at: &At<'_, f64>,
-        x: &mut [f64],
-        all: bool,
-    ) -> Result<bool, Error> {
-        let mut before = f64::INFINITY;
+    /// Moves `x` onto the constraints that count beyond doubt, and do not all but vanish there, by as many steps as that takes from nearby.
+    pub(super) fn settle(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<(), Error> {
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {
-            // Of what rounding leaves rows that all but depend on others would make more.
-            if all && self.is_met(at, x) {
-                break;
-            }
             self.newton.evaluate(at, x);
             at.jacobian(x, &mut self.newton.jacobian);
-            (self.factors.place, self.factors.cautious) = (None, !all);
-            self.factors.factor(at, x, &mut self.newton, all)?;
-            self.factors.solve(at, &mut self.newton);
-            axpy(1.0, &self.newton.step, x);
-            let (step, size) = (largest(&self.newton.step), largest(x));
-            let small = step <= (CONTRACTS * before).max(ROUNDING * size);
-            if all && !small {
+            self.settling_step(at, x, true)?;
+        }
+        Ok(())
+    }
+
+    /// The same onto all constraints. Whether each step is no more than a share of the one before: it is small then beside what lies
+    /// between the branches of the motion.
+    pub(super) fn settle_on_all(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<bool, Error> {
+        let mut before = f64::INFINITY;
+        for _ in 0..NEARBY {
+            // Of what rounding leaves rows that all but depend on others would make more.
+            if at.rows() == 0 || self.is_met(at, x) {
+                break;
+            }
+            self.settling_step(at, x, false)?;
+            let step = largest(&self.newton.step);
+            let small = step <= (CONTRACTS * before).max(ROUNDING * largest(x));
+            if !small {
                 return Ok(false);
             }
             before = step;
         }
         Ok(true)
+    }
+
+    /// Where residuals and A are known.
+    fn settling_step(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &mut [f64],
+        cautious: bool,
+    ) -> Result<(), Error> {
+        (self.factors.place, self.factors.cautious) = (None, cautious);
+        self.factors.factor(at, x, &mut self.newton, !cautious)?;
+        self.factors.solve(at, &mut self.newton);
+        axpy(1.0, &self.newton.step, x);
+        Ok(())
     }
 
     /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no

@@ -139,8 +139,8 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
 }
 
-/// The error of a motion that steps of this size do not follow, with the coordinate that accelerates most: one without mass, if all that has
-/// mass moves as before, and tells ever less of where it is.
+/// The error of a motion that steps of this size do not follow, with the coordinate that accelerates most: one without mass, if all that
+/// has mass moves as before, and tells ever less of where it is.
 fn too_fast(
     spec: &Spec,
     v: &[f64],

@@ -1,6 +1,7 @@
 //! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
 
 use super::dynamics::Dynamics;
+use super::groups::Groups;
 use crate::expr::{Func, Gradient, Graph, Id, Kind, Node, Symbol, System};
 use crate::model::Model;
 use std::collections::{BTreeSet, HashSet};
@@ -138,75 +139,52 @@ fn phases(arguments: &[Id], g: &Graph) -> Vec<(usize, f64)> {
 /// The part that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do not depend on each
 /// other; empty where all are one, and where M is not expanded, so that nothing tells.
 fn parts(d: &Dynamics, g: &Graph) -> Vec<usize> {
-    let (n, m) = (d.force.len(), d.rhs.len());
     if d.lift.is_some() {
         return Vec::new();
     }
-    // Coordinates, then constraints, then nodes that vary with coordinates, each joined to what it is made of or stands for.
-    let mut joined = Joined(Vec::new());
-    let mut roots: Vec<(usize, Id)> = Vec::new();
-    for ((i, j), id) in &d.mass {
-        joined.join(*i, *j);
-        roots.push((*i, *id));
-    }
-    roots.extend(d.force.iter().copied().enumerate());
-    roots.extend(d.nonideal.iter().copied().enumerate());
-    for ((row, j), id) in &d.jacobian {
-        joined.join(n + row, *j);
-        roots.push((n + row, *id));
-    }
-    let rows = [&d.rhs, &d.phi, &d.rate]
-        .into_iter()
-        .flat_map(|ids| ids.iter().copied().enumerate());
-    roots.extend(rows.map(|(row, id)| (n + row, id)));
-    let moves = |id: Id| {
-        let uses = g.uses(id);
+    let (n, m) = (d.force.len(), d.rhs.len());
+    let moves = |id: &Id| {
+        let uses = g.uses(*id);
         uses.coord || uses.velocity || uses.multiplier
     };
-    roots.retain(|(_, id)| moves(*id));
+    let places = |ids: &[Id], from: usize| -> Vec<(usize, Id)> {
+        (from..).zip(ids.iter().copied()).collect()
+    };
+    let entries = d.mass.iter().map(|((i, _), id)| (*i, *id));
+    let coefficients = d.jacobian.iter().map(|((row, _), id)| (n + row, *id));
+    let coordinates = [&d.force, &d.nonideal].map(|ids| places(ids, 0));
+    let rows = [&d.rhs, &d.phi, &d.rate].map(|ids| places(ids, n));
+    let vectors = coordinates.into_iter().chain(rows).flatten();
+    let roots: Vec<(usize, Id)> = (entries.chain(coefficients).chain(vectors))
+        .filter(|(_, id)| moves(id))
+        .collect();
+    // Coordinates, then constraints, then nodes that vary with coordinates, each joined to what it is made of or stands for.
+    let node = |id: Id| n + m + id.index();
+    let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
+    let last = ids.iter().map(|id| node(*id)).max();
+    let mut groups = Groups::new(last.unwrap_or(n + m) + 1);
+    d.mass.keys().for_each(|(i, j)| groups.join(*i, *j));
+    d.jacobian
+        .keys()
+        .for_each(|(row, j)| groups.join(n + row, *j));
     roots
         .iter()
-        .for_each(|(of, id)| joined.join(*of, n + m + id.index()));
-    let ids: Vec<Id> = roots.iter().map(|(_, id)| *id).collect();
-    for id in g.reachable(&ids).into_iter().filter(|id| moves(*id)) {
-        let place = n + m + id.index();
+        .for_each(|(of, id)| groups.join(*of, node(*id)));
+    for id in g.reachable(&ids).into_iter().filter(moves) {
         match *g.node(id) {
-            Node::Symbol(Symbol::Coord(i) | Symbol::Velocity(i)) => joined.join(i, place),
-            Node::Symbol(Symbol::Multiplier(row)) => joined.join(n + row, place),
+            Node::Symbol(Symbol::Coord(i) | Symbol::Velocity(i)) => groups.join(i, node(id)),
+            Node::Symbol(Symbol::Multiplier(row)) => groups.join(n + row, node(id)),
             _ => g.each_operand(id, |operand| {
-                if moves(operand) {
-                    joined.join(n + m + operand.index(), place);
+                if moves(&operand) {
+                    groups.join(node(operand), node(id));
                 }
             }),
         }
     }
-    let parts: Vec<usize> = (0..n).map(|i| joined.first(i)).collect();
+    let parts: Vec<usize> = (0..n).map(|i| groups.of(i)).collect();
     match parts.iter().all(|part| *part == 0) {
         true => Vec::new(),
         false => parts,
-    }
-}
-
-/// Things that are joined, by numbers; each knows one that is less, or is the first of those it is joined with.
-struct Joined(Vec<usize>);
-
-impl Joined {
-    fn first(&mut self, mut i: usize) -> usize {
-        if i >= self.0.len() {
-            return i;
-        }
-        while self.0[i] != i {
-            self.0[i] = self.0[self.0[i]];
-            i = self.0[i];
-        }
-        i
-    }
-
-    fn join(&mut self, i: usize, j: usize) {
-        let known = self.0.len();
-        self.0.extend(known..=i.max(j).max(known.saturating_sub(1)));
-        let (i, j) = (self.first(i), self.first(j));
-        self.0[i.max(j)] = i.min(j);
     }
 }
 

@@ -165,35 +165,28 @@ impl Driver<'_> {
         }
     }
 
-    /// The rounding of each coordinate's part of the mechanism, from that of `all` coordinates, and from these over what they are allowed at
-    /// rest: in the error norm of the part alone, and the largest.
+    /// The rounding of each coordinate's part of the mechanism, from that of `all` coordinates, and from these over what they are allowed
+    /// at rest: in the error norm of the part alone, and the largest.
     fn grants(&self, all: &[f64], shares: &[f64]) -> Vec<[f64; 2]> {
+        let (tolerance, n) = (&self.settings.tolerance, all.len());
+        let v = &self.scheme.start()[n..];
         let parts = self.equations.problem.parts();
-        let one = |part: Option<usize>| {
-            let within = |i: usize| part.is_none_or(|part| parts[i] == part);
-            let errors: Vec<f64> = (all.iter().enumerate())
-                .map(|(i, x)| if within(i) { *x } else { 0.0 })
-                .collect();
-            let members = (0..all.len()).filter(|i| within(*i));
-            let most = members.clone().fold(0.0_f64, |most, i| most.max(shares[i]));
-            let whole = (all.len() as f64 / members.count() as f64).sqrt();
-            [
-                whole * self.norm(&errors),
-                most / self.settings.tolerance.relative,
-            ]
+        let part = |i: usize| parts.get(i).copied().unwrap_or(0);
+        // Of each part, by its first coordinate: squares, how many there are, the largest.
+        let mut sums = vec![[0.0_f64; 3]; n];
+        for (i, x) in all.iter().enumerate() {
+            let [squares, count, most] = &mut sums[part(i)];
+            let weighted = x / tolerance.at(n + i, v[i].abs());
+            *squares += weighted * weighted;
+            // Its position counts, too.
+            *count += 2.0;
+            *most = most.max(shares[i]);
+        }
+        let grant = |i: usize| {
+            let [squares, count, most] = sums[part(i)];
+            [(squares / count).sqrt(), most / tolerance.relative]
         };
-        if parts.is_empty() {
-            return vec![one(None); all.len()];
-        }
-        let mut grants: Vec<[f64; 2]> = Vec::new();
-        for (i, part) in parts.iter().enumerate() {
-            let grant = match *part < i {
-                true => grants[*part],
-                false => one(Some(*part)),
-            };
-            grants.push(grant);
-        }
-        grants
+        (0..n).map(grant).collect()
     }
 
     /// Measures it after a step of size `h` where steps have got shorter, and accelerations have part of it now that does not show in errors.

@@ -539,16 +539,15 @@ impl Driver<'_> {
             let error = Error::Singular { constraints };
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
         }
-        let size = trial.h.abs();
+        let (size, middle) = (trial.h.abs(), 0.5 * (from + to));
         let good = if found.gap > 0.0 {
             size <= 0.51 * left.hypot(found.gap)
         } else if left <= 0.0 {
             true
         } else if self.passage.passing {
-            (left - 0.5 * (from + to) * size).abs() <= OFF * size
+            (left - middle * size).abs() <= OFF * size
         } else {
             // No further than where the next step, as long, goes over it: one held to less would be shorter each time, and never get there.
-            let middle = 0.5 * (from + to);
             let most = left * (1.0 + OFF) / (1.0 + middle);
             // A run that ends so near before it that a step over it may go on behind its end is to be read off that.
             let bounded = self.passage.bounded || !switches.is_empty();
