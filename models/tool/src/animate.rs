@@ -7,17 +7,17 @@ use clap::Args;
 use maud::{PreEscaped, html};
 use serde::Serialize;
 use serde_json::{Value, json};
+use ukcore::Prepared;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
 use ukcore::spec::ShapeKind;
-use ukcore::{Error, Prepared};
 
 use crate::columns::residual;
 use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::{document, joined, message};
-use crate::motion::{Motion, whole};
+use crate::motion::{Motion, early, whole};
 use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
@@ -123,8 +123,8 @@ impl Film {
     }
 
     /// Notes why the run ends early, if it does.
-    pub(crate) fn end(&mut self, error: Option<&Error>) {
-        self.ended = error.map(|error| format!("The motion ends early: {error}"));
+    pub(crate) fn end(&mut self, failure: Option<&Failure>) {
+        self.ended = failure.map(|failure| format!("The motion ends early: {}", failure.message()));
     }
 
     fn shown(self) -> Shown {
@@ -198,13 +198,14 @@ fn filmed(
     let (mut films, mut about, mut failed) = (Vec::new(), None, None);
     for (mut film, ready, motion) in takes {
         let every = motion.interval(&ready, None, pictures - 1)?;
-        let (_, error) = motion.follow(&ready, every, |sample| {
+        let (trajectory, error) = motion.follow(&ready, every, |sample| {
             film.add(sample);
             ControlFlow::Continue(())
         })?;
-        film.end(error.as_ref());
+        let failure = early(&trajectory, error);
+        film.end(failure.as_ref());
         about.get_or_insert_with(|| foot(&ready, motion));
-        failed = failed.or(error.map(|error| Failure::from(error).of(&film.label)));
+        failed = failed.or(failure.map(|failure| failure.of(&film.label)));
         films.push(film);
     }
     Ok((page(entry, films, &about.unwrap_or_default())?, failed))

@@ -3,11 +3,12 @@
 use std::ops::{ControlFlow, Range};
 
 use clap::Args;
-use ukcore::simulate::{Record, SMALLEST_TOLERANCE, Sample};
+use ukcore::simulate::{Ending, Record, SMALLEST_TOLERANCE, Sample};
 use ukcore::{Error, Method, Simulation, Stabilisation, Trajectory};
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::numbers::full;
 use crate::progress::Progress;
 use crate::scene::Ready;
 use crate::units;
@@ -161,6 +162,19 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| {
         format!("a number from {SMALLEST_TOLERANCE:?} to below 1 is needed{several}")
     })
+}
+
+/// Why a motion ends early, if it does: for this error, or since the user has interrupted it.
+pub(crate) fn early(trajectory: &Trajectory, error: Option<Error>) -> Option<Failure> {
+    match (error, trajectory.last()) {
+        (Some(error), _) => Some(Failure::from(error)),
+        (None, Some(last)) if trajectory.ending() == Ending::Interrupted => {
+            let t = full(last.t);
+            let done = format!("interrupted at t = {t} s; what was computed up to there is kept");
+            Some(Failure::Interrupted(done))
+        }
+        _ => None,
+    }
 }
 
 /// Reads a whole number, which may be written as 1e9.

@@ -7,15 +7,14 @@ use std::time::Instant;
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::simulate::{CsvWriter, Drift, Ending, Sample};
+use ukcore::simulate::{CsvWriter, Drift, Sample};
 use ukcore::{Prepared, State};
 
 use crate::animate::{self, Film};
 use crate::command;
 use crate::curves::Curves;
 use crate::failure::Failure;
-use crate::motion::{self, INTERVALS, Motion};
-use crate::numbers::full;
+use crate::motion::{self, INTERVALS, Motion, early};
 use crate::output::{self, WholeFile};
 use crate::scene::{Ready, Scene};
 use crate::summary::Summary;
@@ -80,18 +79,10 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     if let (Some(error), Some(path)) = (&samples.failed, &args.csv) {
         return Err(Failure::file(path, error));
     }
+    let failure = early(&trajectory, error);
     if let Some((film, _)) = &mut samples.film {
-        film.end(error.as_ref());
+        film.end(failure.as_ref());
     }
-    let failure = match (error, trajectory.last()) {
-        (Some(error), _) => Some(Failure::from(error)),
-        (None, Some(last)) if trajectory.ending() == Ending::Interrupted => {
-            let t = full(last.t);
-            let done = format!("interrupted at t = {t} s; what was computed up to there is kept");
-            Some(Failure::Interrupted(done))
-        }
-        _ => None,
-    };
     if let Some(rows) = samples.rows {
         rows.into_inner().finish()?;
     }

@@ -101,6 +101,9 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let had = all - todo.len();
     let file = Mutex::new(&mut table.file);
     let run = |&member: &usize| -> Result<(), Failure> {
+        if interrupt.is_set() {
+            return Ok(());
+        }
         let row = plan.row(member, interrupt)?;
         if let Some(row) = row.filter(|_| !interrupt.is_set()) {
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
