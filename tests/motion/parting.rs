@@ -1,5 +1,5 @@
-//! Places where motions meet that part again: a state tells no more in which way one goes on. Nonholonomic rows that vanish where all motions
-//! lead, and branches that touch. Where a direction tells them apart, or one of them is smooth alone, a motion goes on.
+//! Places where motions meet that part again: a state tells no more in which way one goes on. Nonholonomic rows that vanish where all
+//! motions lead, and branches that touch. Where a direction tells them apart, or one of them is smooth alone, a motion goes on.
 
 use tests::{assert_close, at};
 use ukcore::{Error, Mechanism, Method, Simulation, State, Trajectory};

@@ -3,8 +3,8 @@
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
 //! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have
 //! a potential, but for those that vanish at rest as of dampers, the search goes downhill: curvatures count by their magnitude, so it ends
-//! where the potential is least nearby, unless it starts where nothing moves it. Else r alone tells. Steps are so short that the constraints
-//! are followed: the mechanism rests in the branch in which it starts.
+//! where the potential is least nearby, unless it starts where nothing moves it. Else r alone tells. Steps are so short that the
+//! constraints are followed: the mechanism rests in the branch in which it starts.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -51,8 +51,8 @@ const BALANCED: f64 = 1e-12;
 const NOWHERE: f64 = 1e-12;
 /// So far aside, as a part of the coordinates, a stiffness is looked at once more: farther than the search ends beside the place, and near.
 const ASIDE: f64 = 1e-9;
-/// Forces jump by this share of themselves at the zero of a switch, or keep this share of their parts and of what they are at the guess, more
-/// than the stiffness makes of so many roundings of coordinates.
+/// Forces jump by this share of themselves at the zero of a switch, or keep this share of their parts and of what they are at the guess,
+/// more than the stiffness makes of so many roundings of coordinates.
 const JUMP: f64 = 1e-6;
 const LEFT: f64 = 0.1;
 const ROUNDINGS: f64 = 16.0;
@@ -211,8 +211,8 @@ impl Place {
         0.5 * self.chord_from(before).dot(&(&self.push + &before.push))
     }
 
-    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where nothing
-    /// stiff holds it near. `None` for a stiffness that is not finite.
+    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where
+    /// nothing stiff holds it near. `None` for a stiffness that is not finite.
     fn step(&self, stiffness: &DMatrix<f64>, size: f64) -> Option<(DVector<f64>, f64)> {
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
@@ -300,8 +300,8 @@ impl Search {
         })
     }
 
-    /// A constraint that moves on with time from where it just stands: b is not 0, and not its rounding beside what it is a moment before and
-    /// behind.
+    /// A constraint that moves on with time from where it just stands: b is not 0, and not its rounding beside what it is a moment before
+    /// and behind.
     fn driven(&self, state: &State) -> Option<usize> {
         let spec = self.mech.spec();
         if spec.structure.scleronomic {
@@ -353,8 +353,8 @@ impl Search {
         off <= MATCHED * parts && !self.is_held_by_turning(state, units)
     }
 
-    /// Whether forces turn velocities, as those of a frame that turns do: they may hold what is at the top of a potential, whatever else damps
-    /// it. That is so where ∂(Q + c)/∂q̇ is not symmetric; what inertia makes of velocities is the same both ways.
+    /// Whether forces turn velocities, as those of a frame that turns do: they may hold what is at the top of a potential, whatever else
+    /// damps it. That is so where ∂(Q + c)/∂q̇ is not symmetric; what inertia makes of velocities is the same both ways.
     fn is_held_by_turning(&self, state: &State, units: &DVector<f64>) -> bool {
         let (mech, State { t, q, .. }) = (&self.mech, state);
         let n = q.len();
@@ -465,8 +465,8 @@ impl Search {
         })
     }
 
-    /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³ has it
-    /// at 0, the search ends on the side from which it comes.
+    /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³
+    /// has it at 0, the search ends on the side from which it comes.
     fn turns(&mut self, here: &Place, direction: &DVector<f64>, stiffness: f64) -> bool {
         let change = here.displacement(direction);
         [ASIDE, -ASIDE].into_iter().any(|share| {
@@ -509,9 +509,9 @@ impl Search {
     }
 }
 
-/// Whether a search that began with the largest force `first`, and has met the stiffness `firm`, ends beside a jump of forces: with one that
-/// rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which that is nothing. `None` for one
-/// that is not finite.
+/// Whether a search that began with the largest force `first`, and has met the stiffness `firm`, ends beside a jump of forces: with one
+/// that rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which that is nothing. `None` for
+/// one that is not finite.
 fn is_unbalanced(
     here: &Place,
     stiffness: &DMatrix<f64>,

@@ -128,8 +128,8 @@ impl Measure {
         self.kept = true;
     }
 
-    /// Looks at A another time, too, where time turns its rows: the lever of a steered wheel vanishes where it stands across. Not where ranks
-    /// are decided: what hardly turns leads far ahead, where other rows may have grown.
+    /// Looks at A another time, too, where time turns its rows: the lever of a steered wheel vanishes where it stands across. Not where
+    /// ranks are decided: what hardly turns leads far ahead, where other rows may have grown.
     pub(crate) fn look_ahead(&mut self) {
         self.ahead = true;
     }

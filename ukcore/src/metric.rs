@@ -167,8 +167,8 @@ impl Metric {
         }
     }
 
-    /// Which share of M⁻¹ Q rounding of the entries of M may be: ε over the least that a coordinate's inertia keeps beside the others'. 1 at
-    /// most.
+    /// Which share of M⁻¹ Q rounding of the entries of M may be: ε over the least that a coordinate's inertia keeps beside the others'. 1
+    /// at most.
     pub(crate) fn rounding(&mut self, mass: &[f64]) -> f64 {
         let n = self.n;
         if self.l.is_empty() {

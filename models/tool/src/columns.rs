@@ -43,8 +43,8 @@ impl Column {
     }
 }
 
-/// The quantities called `names`, as in the first line of `run --csv`, in the order asked for; the name of a family or body, where no column
-/// is called so, means all that [belongs] to it.
+/// The quantities called `names`, as in the first line of `run --csv`, in the order asked for; the name of a family or body, where no
+/// column is called so, means all that [belongs] to it.
 ///
 /// # Errors
 /// [`Failure::Usage`] for a name that is none, with the nearest.

@@ -31,8 +31,8 @@ pub(crate) fn setting(name: &str, value: f64, units: [&str; 2]) -> String {
     text.trim_end().to_owned()
 }
 
-/// A value in an SI unit as it is in the other one, in which it is declared, if it has no more digits there; in degrees, if it has fewer and
-/// is an angle declared in radians.
+/// A value in an SI unit as it is in the other one, in which it is declared, if it has no more digits there; in degrees, if it has fewer
+/// and is an angle declared in radians.
 pub(crate) fn elsewhere(value: f64, units: [&str; 2]) -> Option<(String, &str)> {
     let (other, declared) = match units {
         ["rad", ""] => ("deg", false),

@@ -130,8 +130,8 @@ impl Start {
         })
     }
 
-    /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and numbers
-    /// that may be meant in the units of the declaration.
+    /// [`Start::ready`], with notes on standard error: other ways to put it together that are as near, where assembly sees them, and
+    /// numbers that may be meant in the units of the declaration.
     pub(crate) fn noted<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let given = self.settings.iter();
         // They may be why it fails.

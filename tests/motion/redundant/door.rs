@@ -1,5 +1,5 @@
-//! A door on three hinges far off the origin: rounding of places is all that the hinges contradict each other by, and moves the door by more
-//! than a tight tolerance at each projection.
+//! A door on three hinges far off the origin: rounding of places is all that the hinges contradict each other by, and moves the door by
+//! more than a tight tolerance at each projection.
 
 use ukcore::{Method, Simulation};
 

@@ -200,8 +200,8 @@ fn is_nearer(before: &[f64], values: &[f64]) -> bool {
     pairs.any(|(a, b)| a.abs() < NEARER * b.abs())
 }
 
-/// A look next to the start of a step, where coordinates go by their velocities alone: what an interpolant makes of them is off by more than
-/// that.
+/// A look next to the start of a step, where coordinates go by their velocities alone: what an interpolant makes of them is off by more
+/// than that.
 fn beginning(
     events: &mut [Event],
     [t_old, t]: [f64; 2],

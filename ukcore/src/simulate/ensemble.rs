@@ -5,8 +5,8 @@
 //! all repeat what one rejects. So the result of a member depends neither on its neighbours nor on the number of threads, bit by bit.
 //!
 //! Per member the run is that of a [`Simulation`] with [`Method::Dop853`](crate::Method), projection and steps across switches
-//! ([`Switching::Ignored`](super::Switching): a lane is not taken back to a kink of its own); results agree to the tolerance where there are
-//! no switches, not bit by bit, as lanes round sines otherwise and their projections end elsewhere within rounding.
+//! ([`Switching::Ignored`](super::Switching): a lane is not taken back to a kink of its own); results agree to the tolerance where there
+//! are no switches, not bit by bit, as lanes round sines otherwise and their projections end elsewhere within rounding.
 
 use std::sync::atomic::AtomicUsize;
 

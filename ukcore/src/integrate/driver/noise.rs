@@ -189,7 +189,8 @@ impl Driver<'_> {
         (0..n).map(grant).collect()
     }
 
-    /// Measures it after a step of size `h` where steps have got shorter, and accelerations have part of it now that does not show in errors.
+    /// Measures it after a step of size `h` where steps have got shorter, and accelerations have part of it now that does not show in
+    /// errors.
     pub(super) fn uncover(&mut self, h: f64) {
         self.longest = self.longest.max(h.abs());
         if h.abs() >= SHRUNK * self.longest {

@@ -22,8 +22,8 @@ const ZERO: f64 = 1e-6;
 const DIFFERENCE: f64 = 1e-3;
 const RANK: f64 = 1e-9;
 
-/// The place is beside the motion by less than this share of the way, and no farther than so many times it. As much dearer than the time are
-/// displacements.
+/// The place is beside the motion by less than this share of the way, and no farther than so many times it. As much dearer than the time
+/// are displacements.
 const ASIDE: f64 = 0.2;
 const FARTHEST: f64 = 3.0;
 

@@ -33,8 +33,8 @@ struct Left {
 }
 
 impl Search<'_> {
-    /// Where a motion with velocity `u` comes nearest to the place where c vanishes, which is of as many rows as `count`. `None` where it is
-    /// of constraints on positions alone, or may be of some beside others.
+    /// Where a motion with velocity `u` comes nearest to the place where c vanishes, which is of as many rows as `count`. `None` where it
+    /// is of constraints on positions alone, or may be of some beside others.
     pub(super) fn rates(&mut self, u: &[f64], count: usize) -> Option<Option<Singular>> {
         let spec = self.mech.spec();
         if spec.holonomic == spec.m() || count > 1 && spec.holonomic > 0 {
@@ -95,8 +95,8 @@ impl Search<'_> {
         let (n, m) = (spec.n(), spec.m());
         let mut basis = vec![0.0; n * (n - self.dense.cod.rank())];
         self.dense.cod.null_space(&mut basis);
-        // Directions of differentiation: along the motion, by the size of its velocity, by that of the time, and by those of the coordinates
-        // with several signs.
+        // Directions of differentiation: along the motion, by the size of its velocity, by that of the time, and by those of the
+        // coordinates with several signs.
         let moving = |x: f64, rates: [f64; DIRECTIONS]| {
             let rate = |k: usize| rates.get(k).copied().unwrap_or(0.0);
             Sloped::new(x, Slopes::new(rate))
