@@ -13,6 +13,7 @@ mod friction;
 mod impacts;
 mod integrals;
 mod kinks;
+mod launched;
 mod light;
 mod massless;
 mod met;

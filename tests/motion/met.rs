@@ -7,7 +7,7 @@ use ukcore::{Event, Method, Simulation, State, Trajectory};
 
 ukcore::multibody! {
     /// A parallelogram in angles relative to each other: along the line of the axles the row of its closing along that line vanishes.
-    Parallelogram {
+    pub Parallelogram {
         params { l = 0.3, span = 1.0, g = 0.0 }
         bodies { for i in 0..3 { planar b[i] { mass: 1, inertia: 0.1 * sq(l), centre: [l / 2.0, 0] } } }
         gravity { [0, -g] }

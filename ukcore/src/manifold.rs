@@ -135,6 +135,12 @@ impl Projector {
         self.manifold.project(&at, q)
     }
 
+    /// Whether coordinates meet all constraints but for what rounding leaves of their residuals.
+    pub(crate) fn is_met(&mut self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        let at = At::new(&self.mechanism, Level::Position, t, v);
+        self.manifold.is_met(&at, q)
+    }
+
     /// Takes what makes coordinates of different units comparable, at the first state.
     fn measure(&mut self, t: f64, q: &[f64], v: &[f64]) {
         if !std::mem::replace(&mut self.measured, true) {

@@ -271,7 +271,7 @@ impl Trajectory {
             return Ok(end.clone());
         }
         let sign = if end.t < self.start { -1.0 } else { 1.0 };
-        let begun = |s: &Segment| sign * s.t_old() <= sign * t;
+        let begun = |s: &Segment| sign * s.from <= sign * t;
         let index = segments.partition_point(begun).saturating_sub(1);
         let Some(segment) = segments.get(index) else {
             return Ok(end.clone());

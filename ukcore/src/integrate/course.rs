@@ -34,7 +34,7 @@ pub(crate) struct Place {
 pub(crate) struct Trial {
     pub(crate) start: Place,
     pub(crate) end: Place,
-    /// Its signed size.
+    /// Its signed size; more than the way to its end where it is cut, and goes on behind that.
     pub(crate) h: f64,
     /// It ends at the end of the run.
     pub(crate) last: bool,
@@ -226,6 +226,7 @@ impl Course {
                 t0: self.t0,
                 s: start.s,
                 h,
+                from: start.t,
                 coefficients,
             }),
             error: None,

@@ -11,6 +11,8 @@ pub(crate) struct Interpolant<C> {
     pub(crate) s: f64,
     /// Signed size of the step.
     pub(crate) h: f64,
+    /// The time from which it counts: that of the start of the step, or where a run that has gone back is again where it was.
+    pub(crate) from: f64,
     /// Rows c₀, c₁, … of [`interpolate`].
     pub(crate) coefficients: C,
 }
@@ -19,11 +21,6 @@ pub(crate) struct Interpolant<C> {
 pub(crate) type Segment = Interpolant<Vec<f64>>;
 
 impl<C: AsRef<[f64]>> Interpolant<C> {
-    /// Time at the start of the step.
-    pub(crate) fn t_old(&self) -> f64 {
-        self.t0 + self.s
-    }
-
     /// State at `t`, as interpolated: not projected.
     pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
         let theta = (t - self.t0 - self.s) / self.h;
@@ -36,6 +33,7 @@ impl<C: AsRef<[f64]>> Interpolant<C> {
             t0: self.t0,
             s: self.s,
             h: self.h,
+            from: self.from,
             coefficients: self.coefficients.as_ref().to_vec(),
         }
     }

@@ -19,6 +19,7 @@ use passage::Passage;
 use switching::Goal;
 
 mod before;
+mod launch;
 mod noise;
 mod passage;
 mod switching;
@@ -55,11 +56,19 @@ struct Driver<'p> {
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
+    /// [`Goal::cut`] of the step in hand: it goes on behind its end.
+    cut: Option<f64>,
     passage: Passage,
     /// [`Scheme::gap`] of the scheme.
     gap: Option<[f64; 2]>,
     /// Time and state up to which the steps are known already.
     shown: Option<(f64, Vec<f64>)>,
+    /// How often the run has gone back from one place in a row, each time in other branches.
+    relaunches: usize,
+    /// Whether it has been asked if the start is to blame for first steps that come to nothing.
+    launched: bool,
+    /// The state at the end of the run, where the last step goes on behind it and nobody else is told.
+    reached: Option<Vec<f64>>,
     /// Steps that were good but left their branches; those onto zeros of switches; those whose error is rounding.
     repeated: usize,
     /// The last steps whose way their projection took back for the greater part.
@@ -130,8 +139,12 @@ impl<'p> Driver<'p> {
             scheme,
             raw: y0.to_vec(),
             goal: None,
+            cut: None,
             passage: Passage::default(),
             shown: None,
+            relaunches: 0,
+            launched: false,
+            reached: None,
             repeated: 0,
             undone: 0,
             landings: 0,
@@ -171,7 +184,8 @@ impl<'p> Driver<'p> {
             rounded: self.rounded,
             factorisations: scheme.factorisations(),
         };
-        (report, scheme.start().to_vec())
+        let reached = self.reached.unwrap_or_else(|| scheme.start().to_vec());
+        (report, reached)
     }
 }
 
@@ -188,9 +202,14 @@ impl Driver<'_> {
             if let Some(outcome) = self.detour()? {
                 return Ok(outcome);
             }
+            if self.equations.course.steps == 0 && !self.launched {
+                self.launch_if_stuck()?;
+            }
             self.retreat()?;
             let goal = self.goal.take();
             self.approach(goal.is_some());
+            self.cut = goal.as_ref().and_then(|goal| goal.cut);
+            self.passage.passing |= self.cut.is_some();
             let planned = goal.as_ref().map(|goal| goal.trial).or(self.passage.beyond);
             let trial = self.equations.course.plan(planned)?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
@@ -210,6 +229,7 @@ impl Driver<'_> {
         self.measure(SELDOM);
         self.uncover(h);
         (self.passage.plans, self.passage.astray) = (0, false);
+        self.passage.whole = false;
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
@@ -269,6 +289,7 @@ impl Driver<'_> {
         self.weigh(error * rounding, trial.h)?;
         self.progress(trial)?;
         let interpolated = self.stay(trial, error)?;
+        let (trial, interpolated) = self.cut(trial, interpolated)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
         (self.passage.before).keep(self.equations.course.now, self.scheme.start());
@@ -375,11 +396,17 @@ impl Driver<'_> {
         interpolated: bool,
         error: f64,
     ) -> Result<(Next, f64), Refusal> {
-        let equations = &mut self.equations;
-        let known = self.shown.as_ref().map(|(t, y)| Sample::of(*t, y));
-        if known.is_some_and(|known| equations.course.ahead(known.t) >= trial.h.abs()) {
+        let course = &self.equations.course;
+        let ahead = self.shown.as_ref().map(|(t, _)| course.ahead(*t));
+        // A step that is cut ends before its size.
+        if ahead.is_some_and(|ahead| ahead >= course.ahead(trial.end.t)) {
+            if course.is_beyond(trial) {
+                let reached = self.read_off(trial, interpolated);
+                self.reached = Some(reached.ok_or(Refusal::End(None))?);
+            }
             return Ok((Next::Continue, 0.0));
         }
+        let equations = &mut self.equations;
         let next = equations.problem.next_sample();
         let wanted = self.settings.dense
             || equations.course.covers(trial, next)
@@ -406,13 +433,17 @@ impl Driver<'_> {
             return Err(Refusal::Astray);
         }
         step.old = known.unwrap_or(step.old);
+        let from = step.old.t;
+        (step.interpolant.iter_mut()).for_each(|interpolant| interpolant.from = from);
         step.nearby = equations.nearby;
         step.error = self.scheme.error().filter(|_| wanted);
         let shown = equations.problem.step(&step);
-        let next =
+        let (next, along) =
             shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))?;
-        (self.shown, self.passage.retreated) = (None, None);
-        Ok(next)
+        if along <= 1.0 {
+            (self.shown, self.passage.retreated, self.relaunches) = (None, None, 0);
+        }
+        Ok((next, along))
     }
 }
 

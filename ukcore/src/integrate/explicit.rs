@@ -36,7 +36,8 @@ impl Scheme for Explicit {
     }
 
     fn first_size(&mut self, equations: &mut Equations<'_>, largest: f64) -> f64 {
-        self.stepper.first_size(equations, 0.0, largest)
+        let s = equations.course.now.s;
+        self.stepper.first_size(equations, s, largest)
     }
 
     fn attempt(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {

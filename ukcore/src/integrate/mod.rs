@@ -146,6 +146,18 @@ pub(crate) trait Problem {
     fn project_along(&mut self, t: f64, base: &[f64], moved: [&mut [f64]; 2]) -> Result<(), Error>;
     /// Moves the velocities `v` to the nearest ones that are consistent at (t, `q`).
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
+    /// Moves a state beside a singular position onto the constraints that tell something there.
+    fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        self.project(t, q, v)
+    }
+    /// The singular position that a state is at, or that its motion, forward or backward `along` the time, will be at before long; and how
+    /// long before it tells where the motion comes from.
+    fn just_ahead(&mut self, _at: Sample<'_>, _along: f64) -> Option<(f64, Singular)> {
+        None
+    }
+    /// The run goes on from a state at `t`, not where the last step went: what was met there is of no concern, nor, where it stood at a
+    /// singular position when it began, what it was told of its constraints `at_start`.
+    fn go_on_from(&mut self, _t: f64, _at_start: bool) {}
     /// Puts into `change`, by which a projection changes a state, what is left of it without what rounding makes of it.
     fn excess(&mut self, _at: Sample<'_>, _change: &mut [f64]) {}
     /// The name of coordinate `i`.

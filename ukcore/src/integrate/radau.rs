@@ -246,7 +246,8 @@ impl Scheme for Radau {
 
     fn first_size(&mut self, equations: &mut Equations<'_>, largest: f64) -> f64 {
         let start = [&self.start[..], &self.rate];
-        first_size(equations, 0.0, start, largest, ORDER, &self.tolerance)
+        let s = equations.course.now.s;
+        first_size(equations, s, start, largest, ORDER, &self.tolerance)
     }
 
     fn attempt(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {

@@ -25,6 +25,9 @@ pub(super) use turn::Stuck;
 /// Parts into which a step is divided in the search for sign changes.
 const PARTS: usize = 8;
 
+/// Where branches are taken within a step, it is divided more finely next to that place.
+const SOON: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
+
 /// A zero nearer than this part of a step to its end is at its end.
 const AT_END: f64 = 1e-13;
 
@@ -98,28 +101,40 @@ impl Switches {
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
 
-    /// Where a step first leaves its branches, if it does. `time` is that of a part of the step, `coefficients` are those of its
-    /// interpolant. Switches that the step goes onto do not count.
+    /// Where a step first leaves its branches between two parts of it, if it does. `time` is that of a part of the step, `coefficients` are
+    /// those of its interpolant. Switches that the step goes onto do not count. Where the first part is not the start of the step, it is
+    /// there that the branches are taken.
     pub(super) fn search(
         &mut self,
         problem: &mut dyn Problem,
         time: impl Fn(f64) -> f64,
         coefficients: &[f64],
+        [from, to]: [f64; 2],
     ) -> Option<Leaving> {
+        let levels = self.levels.clone();
         let mut state = std::mem::take(&mut self.state);
         let mut values = std::mem::take(&mut self.values);
         let mut evaluate = |theta: f64, values: &mut [f64]| {
             interpolate(theta, coefficients, &mut state);
             problem.switching(Sample::of(time(theta), &state), values);
         };
-        evaluate(0.0, &mut values);
+        evaluate(from, &mut values);
         for (k, g) in values.iter().enumerate() {
+            if from > 0.0 {
+                let inside = g * self.branches[k].sign() > 0.0;
+                self.levels[k] = if inside { 0.0 } else { *g };
+            }
             self.before[k] = self.inside(k, *g);
         }
         let mut found = None;
-        let mut a = 0.0;
+        let mut a = from;
         let mut parts = std::mem::take(&mut self.dips);
-        parts.extend((1..=PARTS).map(|part| part as f64 / PARTS as f64));
+        parts.extend((1..PARTS).map(|part| part as f64 / PARTS as f64));
+        parts.push(to);
+        if from > 0.0 {
+            parts.extend(SOON.map(|part| from + part * (to - from)));
+        }
+        parts.retain(|part| *part > from && *part <= to);
         parts.sort_by(f64::total_cmp);
         for b in parts {
             evaluate(b, &mut values);
@@ -153,7 +168,7 @@ impl Switches {
             if first.is_finite() {
                 let together = zeros.iter().filter(|(zero, _)| zero - first <= TOGETHER);
                 let switches = together.map(|(_, k)| *k).collect();
-                found = Some(match first < 1.0 - AT_END {
+                found = Some(match first < to - AT_END {
                     true => Leaving::Within(first, switches),
                     false => Leaving::AtEnd(switches),
                 });
@@ -161,7 +176,7 @@ impl Switches {
             }
             a = b;
         }
-        (self.state, self.values) = (state, values);
+        (self.state, self.values, self.levels) = (state, values, levels);
         found
     }
 }

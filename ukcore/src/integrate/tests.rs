@@ -288,7 +288,7 @@ fn interpolants_agree_with_the_motion_in_both_directions() {
             let report = method.run(&mut plain, 0.0, &[1.0, 0.0], t_end, &settings);
             assert_eq!(report.outcome, Outcome::Reached);
             for (segment, (t_old, t, _)) in plain.segments.iter().zip(&plain.steps) {
-                assert_eq!(segment.t_old(), *t_old);
+                assert_eq!(segment.from, *t_old);
                 for part in [0.0, 0.1, 0.5, 0.9, 1.0] {
                     let t = t_old + part * (t - t_old);
                     let mut y = [0.0; 2];

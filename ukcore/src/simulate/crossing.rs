@@ -26,6 +26,13 @@ const TOGETHER: f64 = 2.0;
 /// Guesses at most of how many rows go singular.
 const TRIES: usize = 4;
 
+/// What rows have beside each other at, or just before, a singular position is so many times less than it was before.
+const LESS: f64 = 2.0;
+/// They tell where it is if they are no less than this.
+const TOLD: f64 = 1e-7;
+/// A position that a motion is behind by no more than this share of its way there is where it is.
+const HARDLY: f64 = 1e-3;
+
 /// Significance of a row beside a reversed combination below which steps are short enough to tell what becomes of the motion.
 const UNTOLD: f64 = 1e-5;
 
@@ -179,6 +186,44 @@ pub(super) fn at(
     all.filter(|_| moves).find_map(beside)
 }
 
+/// The singular position that a motion is at in `here`, one of its states, or will be at in the time `within`: by what its rows have beside
+/// each other there and as long before, as far as which it is seen.
+pub(super) fn just_ahead(mech: &Prepared, here: &State, within: f64) -> Option<Singular> {
+    let search = |at: &State| Search::at(mech, at, None);
+    let now = search(here)?;
+    let rows = now.dense.cod.order();
+    let mut pivots = now.dense.cod.pivots().to_vec();
+    pivots.resize(mech.spec().m(), 0.0);
+    if pivots.iter().all(|now| *now > CLEAR) {
+        return None;
+    }
+    let mut back = here.clone();
+    back.t -= within;
+    axpy(-within, &here.v, &mut back.q);
+    let before = search(&back)?;
+    let least = RANK_CEILING * CLEAR;
+    let lost = |(_, before): &(&f64, &f64)| **before > least;
+    let rank = leading(&pivots, CLEAR);
+    let pairs = pivots.iter().zip(before.dense.cod.pivots()).skip(rank);
+    let (now, before) = pairs.take_while(lost).last()?;
+    if *before < LESS * now {
+        return None;
+    }
+    let t = match find(mech, here, None).filter(|_| *now > TOLD) {
+        None => here.t,
+        Some(found) if found.gap == 0.0 && (found.t - here.t) / within >= -HARDLY => found.t,
+        Some(_) => return None,
+    };
+    Some(Singular {
+        t,
+        gap: 0.0,
+        significance: *before,
+        rate: before / (t - back.t).abs(),
+        rounding: 1.0,
+        constraints: mech.spec().constraint_names(&rows[rank..]),
+    })
+}
+
 /// Whether a row of A that is small at a state, beside what it has been, says something there that the others do not.
 pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     let Some(search) = Search::at(mech, &vanishing.near, Some(vanishing)) else {
@@ -191,8 +236,8 @@ pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
     left.is_some_and(|left| *left > RANK_CEILING * all)
 }
 
-/// When a motion meets a place, some time about `t`, where a nonholonomic row vanishes and all motions lead. `None` if there is none, or they
-/// do not.
+/// When a motion meets a place, some time about `t`, where a nonholonomic row vanishes and all motions lead. `None` if there is none, or
+/// they do not.
 pub(super) fn scattering(mech: &Prepared, vanishing: &Vanishing, t: f64) -> Option<f64> {
     let met = zero::find(mech, vanishing, t)?;
     let Vanishing { near, row, .. } = vanishing;

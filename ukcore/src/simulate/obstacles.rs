@@ -24,13 +24,16 @@ const SINGULAR: f64 = 1.5e-8;
 /// The share of its size below which a row that reverses its direction is taken to be zero there.
 const UNTOLD: f64 = 1e-5;
 
-/// The share of its size below which a row tells where it is going to vanish: a nonholonomic one, of which that is looked at; one of branches
-/// that come near each other without touching.
+/// The share of its size below which a row tells where it is going to vanish: a nonholonomic one, of which that is looked at; one of
+/// branches that come near each other without touching.
 const NEARLY: f64 = 1e-3;
 const HARDLY: f64 = 1e-8;
 
 /// The share of the time since it was largest in which a row vanishes that falls to these as a power of the time left.
 const SOON: f64 = 0.01;
+
+/// The usual way of a motion to a singular position, as a share of that in which the mechanism takes another shape.
+const WAY: f64 = 0.1;
 
 /// A motion that has gone no further than this share of the coordinates has only begun.
 const BEGUN: f64 = 1e-3;
@@ -370,6 +373,20 @@ fn lost_at_start(mechanism: &Prepared, start: Sample<'_>, there: &State) -> Vec<
         true => crossing::at(mechanism, start, &there.v, size, &measure).unwrap_or_default(),
         false => spec.constraint_names(&lost),
     }
+}
+
+/// The singular position that a motion is at in a state, or has less to go to than its usual way, and how long that takes.
+pub(super) fn just_ahead(mech: &Prepared, at: Sample<'_>, along: f64) -> Option<(f64, Singular)> {
+    if mech.spec().m() == 0 {
+        return None;
+    }
+    let measure = Measure::at(mech, at.t, [at.q, at.v]);
+    let size = size(mech, at, &measure);
+    let reach = measure.reach(mech, at.t, [at.q, at.v], size, 0.0);
+    let time = WAY * reach.unwrap_or(size) / measure.size(at.v);
+    let found = || crossing::just_ahead(mech, &at.to_state(), along * time);
+    let moves = time > 0.0 && time.is_finite();
+    moves.then(found).flatten().map(|found| (time, found))
 }
 
 /// The error of a run that begins at rest where branches cross, with an acceleration along none of them: a motion that had it for its

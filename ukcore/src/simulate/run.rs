@@ -147,6 +147,26 @@ impl Problem for Run<'_> {
         Ok(())
     }
 
+    fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        if !self.recorder.trajectory.projected {
+            return Ok(());
+        }
+        self.recorder.projector.settle(t, q, v)
+    }
+
+    fn just_ahead(&mut self, at: Sample<'_>, along: f64) -> Option<(f64, Singular)> {
+        if !self.recorder.trajectory.projected {
+            return None;
+        }
+        obstacles::just_ahead(self.solver.mechanism(), at, along)
+    }
+
+    fn go_on_from(&mut self, t: f64, at_start: bool) {
+        self.solver.take_weakest();
+        self.nearest = None;
+        self.rows.go_on_from(t, at_start);
+    }
+
     fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
         self.recorder.projector.excess(at.t, at.q, at.v, change);
     }

@@ -5,10 +5,11 @@ use super::integrals::Integrals;
 use super::record::{Recorder, Sink};
 use super::{START_BOUND, Simulation, obstacles};
 use crate::assemble::{Residuals, State};
+use crate::dense::Rows;
 use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
-use crate::manifold::{Projector, Stabilisation};
+use crate::manifold::{Projector, STALLED, Stabilisation};
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::solver::Solver;
@@ -18,6 +19,9 @@ use crate::trajectory::{Trajectory, Work};
 /// States between the ends of steps are off by some ten tolerances; so many times that much is expected at most, of RATTLE's of this one.
 const INTERPOLATED: f64 = 100.0;
 const RATTLE: f64 = 1e-5;
+
+/// Velocities of a start that are next to along its constraints are known to this share of the tolerance.
+const EXACT: f64 = 1e-3;
 
 /// An angle whose rounding is above this, in rad, is no angle any more: sines and cosines of it have lost two thirds of their digits.
 const BLUR: f64 = 1e-5;
@@ -92,7 +96,7 @@ impl Simulation {
         };
         let mech = &self.mechanism;
         start.check(mech)?;
-        let State { t, q, v } = start;
+        let State { t, q, v } = start.clone();
         check_angles(mech, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
@@ -115,12 +119,25 @@ impl Simulation {
         let nothing = f64::EPSILON * reach.unwrap_or(0.0);
         let units = absolute.iter().zip(&measure.scale);
         let allowed: Vec<f64> = units.map(|(x, unit)| x + nothing * unit).collect();
-        if !near([&q, &new_q], &allowed, &measure) {
+        let velocity = projector.velocity(t, &new_q, &mut new_v);
+        let stays = near([&q, &new_q], &allowed, &measure);
+        let keeps = velocity.is_ok() && near([&v, &new_v], &absolute, &measure);
+        let exact: Vec<f64> = absolute.iter().map(|x| EXACT * x).collect();
+        let exactly = EXACT * tolerance.relative;
+        let unmoved = [[&q, &new_q], [&v, &new_v]]
+            .into_iter()
+            .all(|[old, new]| within(exactly, [old, new], &exact, &measure));
+        if !unmoved && projector.is_met(t, &q, &v) && goes_along(mech, &start, &measure, exactly) {
+            // Beside a singular position what rounding leaves of residuals moves a state by more than that.
+            work.projections += 1;
+            return Ok((start, size, tolerance));
+        }
+        if !stays {
             let residual = Residuals::at(mech, t, &q, &v).position;
             return Err(off_constraint(spec, "position", &residual));
         }
-        let velocity = projector.velocity(t, &new_q, &mut new_v)?;
-        if !near([&v, &new_v], &absolute, &measure) {
+        let velocity = velocity?;
+        if !keeps {
             let residual = Residuals::at(mech, t, &new_q, &v).velocity;
             return Err(off_constraint(spec, "velocity", &residual));
         }
@@ -162,6 +179,26 @@ impl Simulation {
     }
 }
 
+/// Whether velocities are along the constraints but for rounding, or this share of what their rows are where they do not all but vanish.
+fn goes_along(
+    mech: &Prepared,
+    State { t, q, v }: &State,
+    measure: &Measure,
+    relative: f64,
+) -> bool {
+    let m = mech.spec().m();
+    let (mut rates, mut jacobian) = (vec![0.0; m], vec![0.0; q.len() * m]);
+    mech.residual_rate(*t, q, v, &mut rates);
+    mech.jacobian(*t, q, v, &mut jacobian);
+    let rows = Rows::all(&jacobian, m);
+    let rounding = STALLED.max(relative) * measure.size(v);
+    rates.iter().enumerate().all(|(c, rate)| {
+        let size = rows.largest(c, &measure.scale);
+        let size = measure.size_of_vanishing(c, size).unwrap_or(size);
+        rate.abs() <= rounding * size
+    })
+}
+
 /// An error where a coordinate in a sine, cosine or tangent of the equations, or a parameter added to something there, is so large that it
 /// is rounded by more than [`BLUR`]. An error control relative to the coordinate does not see it.
 fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
@@ -183,8 +220,13 @@ fn check_angles(mech: &Prepared, q: &[f64]) -> Result<(), Error> {
 }
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerances.
-fn near([before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
-    let size = START_BOUND * measure.size(before);
+fn near(pair: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
+    within(START_BOUND, pair, absolute, measure)
+}
+
+/// The same for another share of its size.
+fn within(share: f64, [before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
+    let size = share * measure.size(before);
     let changes = before
         .iter()
         .zip(after)

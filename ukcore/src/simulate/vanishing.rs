@@ -157,6 +157,18 @@ impl RowWatch {
         }
     }
 
+    /// The run goes on from a state at `t`; as if it began there, where what it was told `at_start` does not count.
+    pub(super) fn go_on_from(&mut self, t: f64, at_start: bool) {
+        if at_start {
+            let together = self.together;
+            *self = RowWatch {
+                together,
+                ..RowWatch::default()
+            };
+        }
+        self.due = t;
+    }
+
     /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step
     /// on which a combination of rows does.
     pub(super) fn vanishing(
@@ -321,8 +333,8 @@ impl RowWatch {
         None
     }
 
-    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does, other than at the time `over`. One that
-    /// is reversed on the way, which need not be on the constraints, has not only turned where the others leave it little.
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does, other than at the time `over`. One
+    /// that is reversed on the way, which need not be on the constraints, has not only turned where the others leave it little.
     fn dependent(
         &mut self,
         mech: &Prepared,
@@ -436,7 +448,8 @@ impl RowWatch {
         Some(self.found(row, here.to_state(), here.t, [least; 2]))
     }
 
-    /// A row that is least at `t`, a state near which is given: by these shares of what it is around, and of its size at a state of the run.
+    /// A row that is least at `t`, a state near which is given: by these shares of what it is around, and of its size at a state of the
+    /// run.
     fn found(&self, row: usize, near: State, t: f64, [least, reached]: [f64; 2]) -> Vanishing {
         let measure = self.measure.as_ref();
         Vanishing {

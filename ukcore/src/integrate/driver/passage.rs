@@ -31,11 +31,11 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 const TURNING: f64 = 0.25 * f64::EPSILON;
 
 /// The largest tolerance that this may lead to: the one where nothing is said.
-const COARSEST: f64 = 1e-9;
+pub(super) const COARSEST: f64 = 1e-9;
 
 /// Where a shorter step over a position comes out no better than a longer one, so many times the coarsest tolerance may be granted, or as
 /// much as rounding of coordinates makes it: so much more than what it came out with.
-const FAINTEST: f64 = 8.0;
+pub(super) const FAINTEST: f64 = 8.0;
 const AGAIN: f64 = 1.5;
 
 /// A step that comes out worse the nearer it is made begins so many times as far off, as its error asks for, since rounding makes as
@@ -90,8 +90,12 @@ const SHORT: f64 = 0.8;
 #[derive(Default)]
 pub(super) struct Passage {
     ahead: Option<Singular>,
+    /// One has been met since the start of the run, whatever it may be.
+    pub(super) met: bool,
     /// The step in hand goes over it.
-    passing: bool,
+    pub(super) passing: bool,
+    /// It cannot be told what the motion does up to a zero there.
+    pub(super) whole: bool,
     /// The step in hand, where it goes over it to behind the end of the run; whether none may.
     pub(super) beyond: Option<Trial>,
     pub(super) bounded: bool,
@@ -122,6 +126,22 @@ pub(super) struct Passage {
 }
 
 impl Passage {
+    /// The run is before this position, and is to go over it.
+    pub(super) fn expect(&mut self, position: Singular) {
+        (self.ahead, self.untried, self.plans) = (Some(position), true, 0);
+        self.met = true;
+    }
+
+    /// The position that is known to be ahead.
+    pub(super) fn ahead(&self) -> Option<Singular> {
+        self.ahead.clone()
+    }
+
+    /// Whether the step in hand goes over a singular position and is as near to it at this part of it as its stages are.
+    pub(super) fn passes_near(&self, gap: Option<[f64; 2]>, theta: f64) -> bool {
+        self.passing && !self.whole && gap.is_some_and(|[from, to]| (from..=to).contains(&theta))
+    }
+
     /// What the steps that have come to nothing fail for: the position beside which rounding makes more of velocities than any accuracy
     /// that may be asked for.
     pub(super) fn obstacle(&self) -> Option<Error> {
@@ -300,7 +320,7 @@ impl Driver<'_> {
         }
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = (here.0 != t).then_some(here);
-        (other.passage.ahead, other.passage.untried) = (Some(position), true);
+        other.passage.expect(position);
         // Equal steps go on from its end.
         other.passage.bounded = !last;
         let (report, y) = other.travel();
@@ -371,6 +391,12 @@ impl Driver<'_> {
     /// Goes back to where it had retreated from: the way from before does not lead there, so it is another motion's.
     pub(super) fn turn_back(&mut self) -> Result<(), Error> {
         self.passage.astray = true;
+        // In another branch of its switches it would go on as nobody can tell.
+        if self.equations.course.steps > 0 && !self.equations.switches.is_empty()
+            || self.relaunches > 0
+        {
+            return Err(self.untold());
+        }
         match (self.passage.retreated.take(), self.shown.take()) {
             (Some(place), Some((_, y))) => self.restart(place, &y),
             _ => Ok(()),
@@ -378,10 +404,12 @@ impl Driver<'_> {
     }
 
     /// Goes on from this place and state.
-    fn restart(&mut self, place: Place, y: &[f64]) -> Result<(), Error> {
+    pub(super) fn restart(&mut self, place: Place, y: &[f64]) -> Result<(), Error> {
         self.equations.course.now = place;
         self.scheme.end_mut().copy_from_slice(y);
         self.scheme.advance();
+        self.equations.problem.go_on_from(place.t, false);
+        self.equations.settle(y);
         self.begin()
     }
 
@@ -496,13 +524,16 @@ impl Driver<'_> {
             ..
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
+        self.passage.met = true;
         let left = course.ahead(found.t);
-        if self.gap.is_some() && found.gap == 0.0 && left > 0.0 {
+        if self.gap.is_some() && found.gap >= 0.0 && left > 0.0 {
             // Where the run stands is known better than a stage, which may lie far off, or be of a step that is far too long.
             let own = problem.singular(Purpose::Interpolant, Some(here));
             let own = own.filter(|own| {
-                let nearer = own.significance <= found.significance;
-                own.gap == 0.0 && (nearer || found.rate * left > STEEP * own.significance)
+                let nearer = found.gap == 0.0 && own.significance <= found.significance;
+                let (here, told) = (own.significance, found.rate * left);
+                let otherwise = told > STEEP * here || here > STEEP * told;
+                own.gap == 0.0 && (nearer || otherwise)
             });
             found = own.unwrap_or(found);
         }
@@ -555,7 +586,7 @@ impl Driver<'_> {
             size <= most.max(0.51 * left) || trial.last && size < left && before
         };
         // Stages of a step that is far too long tell nothing of the motion.
-        if made && found.gap > 0.0 && left > 4.0 * found.gap {
+        if made && good && found.gap > 0.0 && left > 4.0 * found.gap {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
         if self.passage.ahead.is_none() {

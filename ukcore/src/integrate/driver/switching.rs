@@ -14,6 +14,8 @@ pub(super) struct Goal {
     pub(super) trial: Trial,
     /// Size and error of the step that would have gone across.
     pub(super) whole: (f64, f64),
+    /// The part of it up to the zero, where that is too near to a singular position, which the step goes over, for a step to end there.
+    pub(super) cut: Option<f64>,
 }
 
 impl Driver<'_> {
@@ -21,7 +23,10 @@ impl Driver<'_> {
     pub(super) fn choose(&mut self) -> Result<(), Error> {
         let zeros = self.equations.choose(self.scheme.start());
         let zeros = zeros.map_err(|stuck| self.stuck(stuck))?;
-        self.begin_at(&zeros)
+        match self.begin_at(&zeros) {
+            Err(error) => self.launch()?.then_some(()).ok_or(error),
+            begun => begun,
+        }
     }
 
     /// Evaluates f where `switches` stand at zero: those are followed if f has no value there in their branches.
@@ -41,11 +46,18 @@ impl Driver<'_> {
         }
         let t0 = equations.course.t0;
         let time = |theta: f64| t0 + trial.start.s + theta * trial.h;
+        // What comes before a place where the run has gone back from is none of it; nor is what comes behind a cut.
+        let known = self.shown.as_ref().map(|(t, _)| equations.course.ahead(*t));
+        let from = known.map_or(0.0, |ahead| ahead / trial.h.abs()).max(0.0);
+        let to = self.cut.unwrap_or(1.0);
+        if from >= to {
+            return Ok(false);
+        }
         // A method without an estimate has no error that would tell.
         let free = error < FREE && self.scheme.error().is_some();
         let (ends, problem) = (self.scheme.states(), &mut *equations.problem);
         match (equations.switches).dips(problem, time, trial.h, ends, free) {
-            _ if equations.switches.doubt => {}
+            _ if equations.switches.doubt || from > 0.0 || to < 1.0 => {}
             Seen::Whole => return Ok(false),
             Seen::Dips => {}
             Seen::Rough => return Err(Refusal::End(None)),
@@ -55,7 +67,7 @@ impl Driver<'_> {
         let coefficients = self.scheme.dense();
         match equations
             .switches
-            .search(equations.problem, time, coefficients)
+            .search(equations.problem, time, coefficients, [from, to])
         {
             None => {}
             Some(Leaving::AtEnd(targets)) => equations.switches.targets.extend(targets),
@@ -75,11 +87,23 @@ impl Driver<'_> {
         self.repeated += 1;
         self.equations.course.h = whole.0;
         let switches = match leaving {
+            Leaving::AtOnce(switches) if self.shown.is_some() => return self.relaunch(&switches),
             Leaving::AtOnce(switches) | Leaving::AtEnd(switches) => switches,
+            Leaving::Within(theta, switches) if self.passage.passes_near(self.gap, theta) => {
+                self.equations.switches.targets = switches;
+                let trial = Trial {
+                    last: false,
+                    ..trial
+                };
+                let cut = Some(theta);
+                self.goal = Some(Goal { trial, whole, cut });
+                return Ok(());
+            }
             Leaving::Within(theta, switches) => {
                 if let Some(trial) = self.equations.course.step(theta * trial.h) {
                     self.equations.switches.targets = switches;
-                    self.goal = Some(Goal { trial, whole });
+                    let cut = None;
+                    self.goal = Some(Goal { trial, whole, cut });
                     return Ok(());
                 }
                 switches
@@ -94,6 +118,31 @@ impl Driver<'_> {
         Ok(())
     }
 
+    /// Ends a step that goes over a singular position near a zero there, if it is to be cut.
+    /// Returns whether its interpolant is made.
+    pub(super) fn cut(
+        &mut self,
+        trial: Trial,
+        interpolated: bool,
+    ) -> Result<(Trial, bool), Refusal> {
+        let (Some(theta), Some(position)) = (self.cut, self.passage.ahead()) else {
+            return Ok((trial, interpolated));
+        };
+        if !interpolated {
+            let stages = self.scheme.interpolate(&mut self.equations, trial);
+            stages.map_err(Refusal::End)?;
+        }
+        let lost = || Refusal::End(None);
+        let part = self.equations.course.step(theta * trial.h);
+        let end = part.ok_or_else(lost)?.end;
+        let start = self.scheme.start().to_vec();
+        let state = self.go_over(&position, [trial.start.t, end.t], &start);
+        self.scheme
+            .end_mut()
+            .copy_from_slice(&state.ok_or_else(lost)?);
+        Ok((Trial { end, ..trial }, true))
+    }
+
     /// The last step is accepted: where it went onto zeros of switches, the next one begins in their other branches. Returns whether it
     /// did.
     pub(super) fn arrive(&mut self) -> Result<bool, Error> {
@@ -106,7 +155,8 @@ impl Driver<'_> {
             let across = self.equations.carried_across(self.scheme.start());
             self.equations.course.pace.across(&across)?;
         }
-        if landed {
+        let launched = self.cut.take().is_some() && self.launch()?;
+        if landed && !launched {
             self.begin_at(&targets)?;
         }
         Ok(landed)

@@ -19,7 +19,7 @@ impl Equations<'_> {
     }
 
     /// Puts `switches` into their other branches.
-    fn flip(&mut self, switches: &[usize]) {
+    pub(in crate::integrate) fn flip(&mut self, switches: &[usize]) {
         for k in switches {
             let other = match self.switches.branches[*k] {
                 Branch::Followed => Branch::Followed,
@@ -33,7 +33,7 @@ impl Equations<'_> {
 
     /// The run has got to this state: each switch that is followed takes the branch of its value, unless that is zero, and what is beyond
     /// the zero of another is from now on the zero to it.
-    fn settle(&mut self, y: &[f64]) {
+    pub(in crate::integrate) fn settle(&mut self, y: &[f64]) {
         let at = self.at(self.course.now.s, y);
         if self.switches.is_empty() {
             return;
