@@ -4,8 +4,7 @@
 ///
 /// # Equations of motion
 ///
-/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b
-/// what the constraints demand.
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
@@ -15,20 +14,14 @@
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// <p><math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace
-/// width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
+/// <p><math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
 ///
 /// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// <p><math><mtext>edge (nonholonomic):</mtext><mspace width="1em"/><mover><mi>x</mi><mo>˙</mo></mover><mspace
-/// width="0.17em"/><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace
-/// width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
+/// <p><math><mtext>edge (nonholonomic):</mtext><mspace width="1em"/><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>edge</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>edge</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mo>−</mo><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo></math><br>
-/// <math><msub><mi>b</mi><mi>edge</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace
-/// width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace
-/// width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>+</mo><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace
-/// width="0.17em"/><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>)</mo></math></p>
+/// <math><msub><mi>b</mi><mi>edge</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>+</mo><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace width="0.17em"/><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>)</mo></math></p>
 ///
 /// # How it is computed
 ///

@@ -5,8 +5,7 @@
 ///
 /// # Equations of motion
 ///
-/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b
-/// what the constraints demand.
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
@@ -14,17 +13,12 @@
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// <p><math><msub><mi>Q</mi><mi>joint</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><msub><mi>k</mi><mn>1</mn></msub><mspace
-/// width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace
-/// width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>)</mo></math><br>
-/// <math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><msub><mi>k</mi><mn>2</mn></msub><mspace
-/// width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo></math></p>
+/// <p><math><msub><mi>Q</mi><mi>joint</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><msub><mi>k</mi><mn>1</mn></msub><mspace width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>)</mo></math><br>
+/// <math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo></math></p>
 ///
 /// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// <p><math><mtext>balance:</mtext><mspace width="1em"/><msub><mi>k</mi><mn>1</mn></msub><mspace
-/// width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace
-/// width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
+/// <p><math><mtext>balance:</mtext><mspace width="1em"/><msub><mi>k</mi><mn>1</mn></msub><mspace width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>balance</mi><mo>,</mo><mi>joint</mi></mrow></msub><mo>=</mo><msub><mi>k</mi><mn>1</mn></msub><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>balance</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mo>−</mo><msub><mi>k</mi><mn>2</mn></msub></math><br>
 /// <math><msub><mi>b</mi><mi>balance</mi></msub><mo>=</mo><mn>0</mn></math></p>

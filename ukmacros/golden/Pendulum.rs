@@ -3,8 +3,7 @@
 ///
 /// # Equations of motion
 ///
-/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b
-/// what the constraints demand.
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
@@ -17,13 +16,10 @@
 ///
 /// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// <p><math><mtext>rod:</mtext><mspace
-/// width="1em"/><msup><mi>x</mi><mn>2</mn></msup><mo>+</mo><msup><mi>y</mi><mn>2</mn></msup><mo>−</mo><msup><mi>l</mi><mn>2</mn></msup><mo>=</mo><mn>0</mn></math><br>
-/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace
-/// width="0.17em"/><mi>x</mi></math><br>
-/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace
-/// width="0.17em"/><mi>y</mi></math><br> <math><msub><mi>b</mi><mi>rod</mi></msub><mo>=</mo><mo>−</mo><mn>2</mn><mspace
-/// width="0.17em"/><mo>(</mo><msup><mrow><mover><mi>x</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>+</mo><msup><mrow><mover><mi>y</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>)</mo></math></p>
+/// <p><math><mtext>rod:</mtext><mspace width="1em"/><msup><mi>x</mi><mn>2</mn></msup><mo>+</mo><msup><mi>y</mi><mn>2</mn></msup><mo>−</mo><msup><mi>l</mi><mn>2</mn></msup><mo>=</mo><mn>0</mn></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace width="0.17em"/><mi>x</mi></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace width="0.17em"/><mi>y</mi></math><br>
+/// <math><msub><mi>b</mi><mi>rod</mi></msub><mo>=</mo><mo>−</mo><mn>2</mn><mspace width="0.17em"/><mo>(</mo><msup><mrow><mover><mi>x</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>+</mo><msup><mrow><mover><mi>y</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>)</mo></math></p>
 ///
 /// # How it is computed
 ///

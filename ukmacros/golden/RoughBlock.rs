@@ -5,14 +5,11 @@
 ///
 /// # Equations of motion
 ///
-/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b
-/// what the constraints demand.
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
 /// Abbreviations:
 ///
-/// <p><math><mi>speed_down</mi><mo>=</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace
-/// width="0.17em"/><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace
-/// width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
+/// <p><math><mi>speed_down</mi><mo>=</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
@@ -25,25 +22,17 @@
 ///
 /// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// <p><math><mtext>plane:</mtext><mspace width="1em"/><mi>x</mi><mspace
-/// width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>+</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace
-/// width="0.17em"/><mi>y</mi><mo>=</mo><mn>0</mn></math><br>
+/// <p><math><mtext>plane:</mtext><mspace width="1em"/><mi>x</mi><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>+</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>y</mi><mo>=</mo><mn>0</mn></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>plane</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math><br>
 /// <math><msub><mi>A</mi><mrow><mi>plane</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math><br>
 /// <math><msub><mi>b</mi><mi>plane</mi></msub><mo>=</mo><mn>0</mn></math></p>
 ///
 /// Non-ideal force c, eq. 8:
 ///
-/// <p><math><msub><mi>c</mi><mi>x</mi></msub><mo>=</mo><mo>−</mo><msup><mrow><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo></mrow><mn>2</mn></msup><mspace
-/// width="0.17em"/><mi>μ</mi><mspace width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace
-/// width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math><br>
-/// <math><msub><mi>c</mi><mi>y</mi></msub><mo>=</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace
-/// width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>μ</mi><mspace
-/// width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace
-/// width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math></p>
+/// <p><math><msub><mi>c</mi><mi>x</mi></msub><mo>=</mo><mo>−</mo><msup><mrow><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo></mrow><mn>2</mn></msup><mspace width="0.17em"/><mi>μ</mi><mspace width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math><br>
+/// <math><msub><mi>c</mi><mi>y</mi></msub><mo>=</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>μ</mi><mspace width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math></p>
 ///
-/// Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that
-/// contain them:
+/// Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that contain them:
 ///
 /// ```text
 /// speed_down: non-ideal force on `x`, non-ideal force on `y`

@@ -204,8 +204,7 @@ const UNITS: &str = "pub T { const N: usize = 2; const G: f64 = 9.81 [m/s^2]; pa
 /// One with starts and a picture, to be damaged.
 const DRAWN: &str = "pub T { const N: usize = 2; params { l = 0.5 } bodies { for i in 0..N { planar link[i] { mass: 1, inertia: 0.1, centre: [l / 2, 0] } } } \
     holonomic { o: pin(ground.at([0, 0]), link[0].at([0, 0])); p: pin(link[0].at([l, 0]), link[1].at([0, 0])) } let tip = link[1].at([l, 0]); \
-    /// Drawn out\n start out(/// Angle\n a = 30 [deg], v = 1.0) until 2.0 { link[0].angle = a; for i in 0..N { dot(link[i].angle) = v - i }
-    /// [link[1].x, link[1].y] near l * [1, sin(a)] } \
+    /// Drawn out\n start out(/// Angle\n a = 30 [deg], v = 1.0) until 2.0 { link[0].angle = a; for i in 0..N { dot(link[i].angle) = v - i } [link[1].x, link[1].y] near l * [1, sin(a)] } \
     start down { link[1].centre near [0, -l]; dot(link[1].centre) near 0; link[0].omega = 1 } \
     draw { for i in 0..N { line(link[i].at([0, 0]), link[i].at([l, 0])) } polyline([0, 0], link[0].centre, tip) circle(tip, l / 5) spring(tip, [1, 0]) trace(tip) text(tip, \"tip\") } }";
 
