@@ -8,7 +8,7 @@ use ukcore::{State, diagnose as diagnosis_of, diagnose_along};
 
 use crate::command::find;
 use crate::failure::Failure;
-use crate::motion::{INTERVALS, Motion};
+use crate::motion::{INTERVALS, Motion, early};
 use crate::numbers::full;
 use crate::output;
 use crate::scene::Scene;
@@ -38,7 +38,7 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
     let ways = start.ways(ready.entry, Look::Everywhere)?;
     let mut states: Vec<State> = Vec::new();
     let every = args.motion.interval(&ready, None, INTERVALS)?;
-    let (_, error) = args.motion.follow(&ready, every, |sample| {
+    let (trajectory, error) = args.motion.follow(&ready, every, |sample| {
         states.push(sample.to_state());
         ControlFlow::Continue(())
     })?;
@@ -57,5 +57,5 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
             None => writeln!(out, "\nof its run at t = {t} s: {nearest}"),
         }
     })?;
-    error.map_or(Ok(()), |error| Err(error.into()))
+    early(&trajectory, error).map_or(Ok(()), Err)
 }

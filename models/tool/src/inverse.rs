@@ -10,7 +10,7 @@ use ukcore::{Effort, Error, Inverse};
 
 use crate::command;
 use crate::failure::Failure;
-use crate::motion::{self, INTERVALS, Motion};
+use crate::motion::{self, INTERVALS, Motion, early};
 use crate::numbers::{extremes, full, significant, width};
 use crate::output::{self, write_whole};
 use crate::scene::{Ready, Scene};
@@ -65,7 +65,7 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
     let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
     let mut broken: Option<Error> = None;
     let every = args.motion.interval(&ready, args.every, INTERVALS)?;
-    let (_, error) = args.motion.follow(&ready, every, |sample| {
+    let (trajectory, error) = args.motion.follow(&ready, every, |sample| {
         match inverse.efforts(&sample.to_state()) {
             Ok(efforts) => samples.push((sample.t, efforts)),
             Err(error) => broken = Some(error),
@@ -81,7 +81,7 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
     if !args.csv.as_deref().is_some_and(output::is_stdout) {
         output::to_stdout(|out| summary(out, &ready, &samples))?;
     }
-    error.or(broken).map_or(Ok(()), |error| Err(error.into()))
+    early(&trajectory, error.or(broken)).map_or(Ok(()), Err)
 }
 
 fn rows(out: &mut dyn Write, samples: &[(f64, Vec<Effort>)]) -> io::Result<()> {
