@@ -207,9 +207,7 @@ impl Driver<'_> {
             }
             self.retreat()?;
             let goal = self.goal.take();
-            self.approach(goal.is_some());
-            self.cut = goal.as_ref().and_then(|goal| goal.cut);
-            self.passage.passing |= self.cut.is_some();
+            self.approach(goal.as_ref());
             let planned = goal.as_ref().map(|goal| goal.trial).or(self.passage.beyond);
             let trial = self.equations.course.plan(planned)?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
@@ -229,7 +227,6 @@ impl Driver<'_> {
         self.measure(SELDOM);
         self.uncover(h);
         (self.passage.plans, self.passage.astray) = (0, false);
-        self.passage.whole = false;
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
@@ -289,7 +286,7 @@ impl Driver<'_> {
         self.weigh(error * rounding, trial.h)?;
         self.progress(trial)?;
         let interpolated = self.stay(trial, error)?;
-        let (trial, interpolated) = self.cut(trial, interpolated)?;
+        let (trial, interpolated) = self.end_at_zero(trial, interpolated)?;
         let (next, along) = self.show(trial, interpolated, error)?;
         let error = error.max(small(along)?);
         (self.passage.before).keep(self.equations.course.now, self.scheme.start());

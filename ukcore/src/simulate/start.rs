@@ -96,7 +96,7 @@ impl Simulation {
         };
         let mech = &self.mechanism;
         start.check(mech)?;
-        let State { t, q, v } = start.clone();
+        let State { t, q, v } = start;
         check_angles(mech, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(t, &mut new_q, &v)?;
@@ -127,10 +127,13 @@ impl Simulation {
         let unmoved = [[&q, &new_q], [&v, &new_v]]
             .into_iter()
             .all(|[old, new]| within(exactly, [old, new], &exact, &measure));
-        if !unmoved && projector.is_met(t, &q, &v) && goes_along(mech, &start, &measure, exactly) {
+        if !unmoved
+            && projector.is_met(t, &q, &v)
+            && goes_along(mech, (t, &q, &v), &measure, exactly)
+        {
             // Beside a singular position what rounding leaves of residuals moves a state by more than that.
             work.projections += 1;
-            return Ok((start, size, tolerance));
+            return Ok((State { t, q, v }, size, tolerance));
         }
         if !stays {
             let residual = Residuals::at(mech, t, &q, &v).position;
@@ -182,14 +185,14 @@ impl Simulation {
 /// Whether velocities are along the constraints but for rounding, or this share of what their rows are where they do not all but vanish.
 fn goes_along(
     mech: &Prepared,
-    State { t, q, v }: &State,
+    (t, q, v): (f64, &[f64], &[f64]),
     measure: &Measure,
     relative: f64,
 ) -> bool {
     let m = mech.spec().m();
     let (mut rates, mut jacobian) = (vec![0.0; m], vec![0.0; q.len() * m]);
-    mech.residual_rate(*t, q, v, &mut rates);
-    mech.jacobian(*t, q, v, &mut jacobian);
+    mech.residual_rate(t, q, v, &mut rates);
+    mech.jacobian(t, q, v, &mut jacobian);
     let rows = Rows::all(&jacobian, m);
     let rounding = STALLED.max(relative) * measure.size(v);
     rates.iter().enumerate().all(|(c, rate)| {

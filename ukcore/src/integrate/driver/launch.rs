@@ -1,3 +1,5 @@
+//! Where a run goes back to, and goes on from: it is the way of its motion from there that tells how it passes a singular position.
+//!
 //! Starts at singular positions, or so near before one that no step has room, and motions that come to the zero of a switch there: what
 //! moves has come from somewhere, in the branches that hold now. So a state of its motion some time before is found, by shooting, and the
 //! run goes on from that; nothing is shown of the way back to where it stood.
@@ -8,12 +10,12 @@ use crate::error::Error;
 use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::switches::Switches;
-use crate::integrate::{Method, Outcome, Singular};
+use crate::integrate::{Method, Outcome, Settings, Singular};
 
 /// The way there is looked for from so far before at first, as a share of what the problem proposes; then from a quarter of that.
 const TIMES: [f64; 3] = [1.0, 0.25, 0.0625];
 
-/// Tolerance of it, as a share of that of the run, and no less than rounding leaves.
+/// Tolerance of the way back, as a share of that of the run; of a shot no less than rounding leaves.
 const FINER: f64 = 0.1;
 const FINEST: f64 = 1e-13;
 
@@ -31,6 +33,10 @@ const FEW: usize = 40;
 
 /// So many branches are tried where a motion is at the zeros of several switches.
 const BRANCHES: usize = 4;
+
+/// A way back from a start that is not far off is made four times as long so often at most, until it takes so many steps.
+const FARTHER: usize = 16;
+const NATURAL: usize = 4;
 
 /// First steps are refused as often as that in no usual run.
 const TRIED: usize = 2;
@@ -86,24 +92,14 @@ impl Driver<'_> {
         self.relaunches += 1;
         let place = self.passage.retreated.take();
         let (Some(place), Some((_, y))) = (place, self.shown.take()) else {
-            return Err(self.untold());
+            return Err(self.passage.untold());
         };
-        self.equations.course.now = place;
-        self.scheme.end_mut().copy_from_slice(&y);
-        self.scheme.advance();
+        self.stand(place, &y);
         self.equations.flip(switches);
         self.equations.settle(&y);
         match self.relaunches <= BRANCHES && self.launch()? {
             true => Ok(()),
-            false => Err(self.untold()),
-        }
-    }
-
-    /// The error of a motion that cannot be told at the position ahead.
-    pub(super) fn untold(&self) -> Error {
-        let constraints = self.passage.ahead().map(|position| position.constraints);
-        Error::Singular {
-            constraints: constraints.unwrap_or_default(),
+            false => Err(self.passage.untold()),
         }
     }
 
@@ -153,10 +149,9 @@ impl Driver<'_> {
         [from, to]: [f64; 2],
         y: &[f64],
     ) -> Option<Vec<f64>> {
-        let mut settings = self.settings.clone();
-        let relative = settings.tolerance.relative;
-        settings.tolerance.relative = (FINER * relative).max(FINEST.min(relative));
-        (settings.first_step, settings.dense) = (None, false);
+        let mut settings = self.finer();
+        let least = FINEST.min(self.settings.tolerance.relative);
+        settings.tolerance.relative = settings.tolerance.relative.max(least);
         settings.max_steps = settings.max_steps.min(FEW);
         let problem = &mut *self.equations.problem;
         problem.go_on_from(from, false);
@@ -166,6 +161,82 @@ impl Driver<'_> {
         other.shown = Some((f64::INFINITY.copysign(to - from), Vec::new()));
         let (report, end) = other.travel();
         matches!(report.outcome, Outcome::Reached).then_some(end)
+    }
+
+    /// The settings of a way that is no part of the run, and more exact.
+    fn finer(&self) -> Settings {
+        let mut settings = self.settings.clone();
+        settings.tolerance.relative *= FINER;
+        (settings.first_step, settings.dense) = (None, false);
+        settings
+    }
+
+    /// Goes back to where it had retreated from: the way from before does not lead there, so it is another motion's.
+    pub(super) fn turn_back(&mut self) -> Result<(), Error> {
+        self.passage.astray = true;
+        // In another branch of its switches it would go on as nobody can tell.
+        if self.equations.course.steps > 0 && !self.equations.switches.is_empty()
+            || self.relaunches > 0
+        {
+            return Err(self.passage.untold());
+        }
+        match (self.passage.retreated.take(), self.shown.take()) {
+            (Some(place), Some((_, y))) => self.restart(place, &y),
+            _ => Ok(()),
+        }
+    }
+
+    /// Puts the run to this place and state.
+    fn stand(&mut self, place: Place, y: &[f64]) {
+        self.equations.course.now = place;
+        self.scheme.end_mut().copy_from_slice(y);
+        self.scheme.advance();
+    }
+
+    /// Goes on from this place and state.
+    pub(super) fn restart(&mut self, place: Place, y: &[f64]) -> Result<(), Error> {
+        self.stand(place, y);
+        self.equations.problem.go_on_from(place.t, false);
+        self.equations.settle(y);
+        self.begin()
+    }
+
+    /// A place and state some steps before the start of a run, where nothing says that the position is near: a start so near to one is a
+    /// state of a motion that has come from somewhere. `None` if there is no telling.
+    pub(super) fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
+        let from = self.equations.course.now;
+        let settings = self.finer();
+        let mut found = None;
+        let (mut t, mut y) = (from.t, self.scheme.start().to_vec());
+        // The size of steps at the start is a first guess.
+        let mut h = self.equations.course.h;
+        for k in 0..FARTHER {
+            let place = Place {
+                s: from.s - h,
+                t: from.t - h,
+            };
+            let problem = &mut *self.equations.problem;
+            let mut other = Driver::new(Method::Dop853, problem, t, &y, place.t, &settings);
+            // None of it belongs to the run.
+            other.shown = Some((place.t - h, Vec::new()));
+            other.passage.bounded = true;
+            let (report, end) = other.travel();
+            let course = &mut self.equations.course;
+            course.attempts += report.steps + report.rejected;
+            if !matches!(report.outcome, Outcome::Reached) {
+                break;
+            }
+            (t, y) = (place.t, end.clone());
+            found = Some((place, end));
+            course.h = h;
+            // Near the position they are short; none is longer than the run.
+            let enough = k > 0 && report.steps >= NATURAL;
+            if enough || h.abs() >= course.end.s.abs() {
+                break;
+            }
+            h *= 4.0;
+        }
+        found
     }
 
     /// The state at the end of the run, behind which the closed step `trial` goes on.

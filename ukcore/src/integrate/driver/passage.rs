@@ -5,6 +5,7 @@
 //! smooth motion allows. Nothing is evaluated at the position itself.
 
 use super::before::Before;
+use super::switching::Goal;
 use super::{Driver, LOST, Refusal};
 use crate::error::Error;
 use crate::integrate::course::{Place, Trial};
@@ -70,13 +71,6 @@ pub(super) const BACK: usize = 32;
 /// So many behind it.
 const BEYOND: usize = 8;
 
-/// Tolerance of the way back from a start, as a share of that of the run.
-const FINER: f64 = 0.1;
-
-/// The way back is made four times as long so often at most, until it takes so many steps.
-const FARTHER: usize = 16;
-const NATURAL: usize = 4;
-
 /// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
 const ONE: f64 = 1e-3;
 
@@ -93,9 +87,7 @@ pub(super) struct Passage {
     /// One has been met since the start of the run, whatever it may be.
     pub(super) met: bool,
     /// The step in hand goes over it.
-    pub(super) passing: bool,
-    /// It cannot be told what the motion does up to a zero there.
-    pub(super) whole: bool,
+    passing: bool,
     /// The step in hand, where it goes over it to behind the end of the run; whether none may.
     pub(super) beyond: Option<Trial>,
     pub(super) bounded: bool,
@@ -139,7 +131,7 @@ impl Passage {
 
     /// Whether the step in hand goes over a singular position and is as near to it at this part of it as its stages are.
     pub(super) fn passes_near(&self, gap: Option<[f64; 2]>, theta: f64) -> bool {
-        self.passing && !self.whole && gap.is_some_and(|[from, to]| (from..=to).contains(&theta))
+        self.passing && gap.is_some_and(|[from, to]| (from..=to).contains(&theta))
     }
 
     /// What the steps that have come to nothing fail for: the position beside which rounding makes more of velocities than any accuracy
@@ -148,6 +140,13 @@ impl Passage {
         let position = self.ahead.as_ref()?;
         let constraints = position.constraints.clone();
         (self.noise(position) > COARSEST).then_some(Error::Singular { constraints })
+    }
+
+    /// The error of a motion that cannot be told at the position ahead.
+    pub(super) fn untold(&self) -> Error {
+        let known = self.ahead.as_ref();
+        let constraints = known.map_or(Vec::new(), |position| position.constraints.clone());
+        Error::Singular { constraints }
     }
 
     /// What rounding makes of velocities in the step in hand, beside a position.
@@ -215,8 +214,10 @@ impl Passage {
 }
 
 impl Driver<'_> {
-    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
-    pub(super) fn approach(&mut self, planned: bool) {
+    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is planned already, as it
+    /// has a `goal`.
+    pub(super) fn approach(&mut self, goal: Option<&Goal>) {
+        self.cut = goal.and_then(|goal| goal.cut);
         let Equations {
             course,
             nearby,
@@ -224,8 +225,8 @@ impl Driver<'_> {
             ..
         } = &mut self.equations;
         let passage = &mut self.passage;
-        (passage.passing, passage.wanted, passage.beyond) = (false, 0.0, None);
-        if planned {
+        (passage.passing, passage.wanted, passage.beyond) = (self.cut.is_some(), 0.0, None);
+        if goal.is_some() {
             return;
         }
         *nearby = false;
@@ -388,31 +389,6 @@ impl Driver<'_> {
         self.restart(place, &y)
     }
 
-    /// Goes back to where it had retreated from: the way from before does not lead there, so it is another motion's.
-    pub(super) fn turn_back(&mut self) -> Result<(), Error> {
-        self.passage.astray = true;
-        // In another branch of its switches it would go on as nobody can tell.
-        if self.equations.course.steps > 0 && !self.equations.switches.is_empty()
-            || self.relaunches > 0
-        {
-            return Err(self.untold());
-        }
-        match (self.passage.retreated.take(), self.shown.take()) {
-            (Some(place), Some((_, y))) => self.restart(place, &y),
-            _ => Ok(()),
-        }
-    }
-
-    /// Goes on from this place and state.
-    pub(super) fn restart(&mut self, place: Place, y: &[f64]) -> Result<(), Error> {
-        self.equations.course.now = place;
-        self.scheme.end_mut().copy_from_slice(y);
-        self.scheme.advance();
-        self.equations.problem.go_on_from(place.t, false);
-        self.equations.settle(y);
-        self.begin()
-    }
-
     /// Evaluates f where the run stands now.
     pub(super) fn begin(&mut self) -> Result<(), Error> {
         let begun = self.scheme.begin(&mut self.equations);
@@ -420,46 +396,6 @@ impl Driver<'_> {
             self.equations.course.blame(cause);
             Error::too_small(0.0)
         })
-    }
-
-    /// A place and state some steps before the start of a run, where nothing says that the position is near: a start so near to one is a
-    /// state of a motion that has come from somewhere. `None` if there is no telling.
-    fn run_up(&mut self) -> Option<(Place, Vec<f64>)> {
-        let from = self.equations.course.now;
-        let mut settings = self.settings.clone();
-        settings.tolerance.relative *= FINER;
-        (settings.first_step, settings.dense) = (None, false);
-        let mut found = None;
-        let (mut t, mut y) = (from.t, self.scheme.start().to_vec());
-        // The size of steps at the start is a first guess.
-        let mut h = self.equations.course.h;
-        for k in 0..FARTHER {
-            let place = Place {
-                s: from.s - h,
-                t: from.t - h,
-            };
-            let problem = &mut *self.equations.problem;
-            let mut other = Driver::new(Method::Dop853, problem, t, &y, place.t, &settings);
-            // None of it belongs to the run.
-            other.shown = Some((place.t - h, Vec::new()));
-            other.passage.bounded = true;
-            let (report, end) = other.travel();
-            let course = &mut self.equations.course;
-            course.attempts += report.steps + report.rejected;
-            if !matches!(report.outcome, Outcome::Reached) {
-                break;
-            }
-            (t, y) = (place.t, end.clone());
-            found = Some((place, end));
-            course.h = h;
-            // Near the position they are short; none is longer than the run.
-            let enough = k > 0 && report.steps >= NATURAL;
-            if enough || h.abs() >= course.end.s.abs() {
-                break;
-            }
-            h *= 4.0;
-        }
-        found
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.

@@ -118,9 +118,8 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// Ends a step that goes over a singular position near a zero there, if it is to be cut.
-    /// Returns whether its interpolant is made.
-    pub(super) fn cut(
+    /// Ends a step that goes over a singular position at a zero near that, if it is to be cut. Returns whether its interpolant is made, too.
+    pub(super) fn end_at_zero(
         &mut self,
         trial: Trial,
         interpolated: bool,
