@@ -104,7 +104,7 @@ impl Dense {
         }
     }
 
-    /// The same, for accelerations off the constraints: what drift lends to rows that imply each other on them is taken in, so that
+    /// Buffers for accelerations off the constraints: what drift lends to rows that imply each other on them is taken in, so that
     /// accelerations go on smoothly whichever rows are chosen.
     pub(crate) fn taking_in(spec: &Spec) -> Self {
         let mut dense = Dense::new(spec);
@@ -157,7 +157,7 @@ impl Dense {
         Ok(())
     }
 
-    /// The same by the route that M needs, which has no inertia in some coordinates if it is `massless`.
+    /// Factors M and A by the route that M needs, which has no inertia in some coordinates if it is `massless`.
     pub(crate) fn factor_as_needed(
         &mut self,
         massless: bool,
@@ -249,7 +249,7 @@ impl Dense {
         self.metric.divide_transposed(out);
     }
 
-    /// The same in scaled coordinates, where it is shortest as it stands.
+    /// The Δ with A Δ = `rhs` that is shortest in scaled coordinates, in these coordinates, into `out`.
     pub(crate) fn least_scaled(&mut self, rhs: &[f64], out: &mut [f64]) {
         let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
         scaled.for_each(|((x, s), b)| *x = s * b);

@@ -104,8 +104,8 @@ pub fn kinematics(
 }
 
 impl Kinematics {
-    /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations
-    /// to its square.
+    /// Returns the sweep run at another speed: velocities are multiplied by `speed`, accelerations by its square. `speed` is that of the
+    /// first drive, which is 1 as the sweep is found.
     ///
     /// # Errors
     /// [`Error::InvalidSetting`] where `t` is a drive, which prescribes all velocities; [`Error::NonFinite`].

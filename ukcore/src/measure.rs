@@ -348,7 +348,7 @@ impl Measure {
         Some(*lever)
     }
 
-    /// The same by inertias; 1 where there are none.
+    /// The largest root of an inertia of class k over the largest of those of known classes, each by its factor; 1 where there are none.
     fn inertia(&self, k: usize, mass: &[f64]) -> f64 {
         let (n, class) = (self.scale.len(), &self.class);
         let (mut own, mut others) = (0.0_f64, 0.0_f64);

@@ -62,7 +62,7 @@ pub(crate) fn reduce<S: Scalar>(
     }
 }
 
-/// The same in so many parts.
+/// Joins what `f` makes of each pair of numbers, in `PARTS` parts that are joined at the end.
 #[inline(always)]
 fn reduce_in<S: Scalar, const PARTS: usize>(
     x: &[S],
@@ -103,7 +103,7 @@ pub(crate) fn excess<S: Scalar>(d: &[S], x: &[S], share: S, least: S) -> S {
     reduce(d, x, beyond, |s, x| x.larger(s))
 }
 
-/// The same of coordinates of different `units`, in which `least` is.
+/// 0 where each |d_j| is at most `share` (|x_j| + `least` unit_j), else more: for coordinates of different `units`.
 pub(crate) fn excess_by<S: Scalar>(d: &[S], x: &[S], share: S, least: S, units: &[f64]) -> S {
     let all = d.iter().zip(x).zip(units);
     let beyond = all.map(|((d, x), unit)| {

@@ -362,7 +362,7 @@ impl Solver {
         std::mem::replace(&mut self.weakest, 1.0)
     }
 
-    /// The same, to be asked for again.
+    /// The least significance of a row that counted in the solutions since it was last taken, which it does not reset.
     pub(crate) fn weakest(&self) -> f64 {
         self.weakest
     }

@@ -171,7 +171,7 @@ pub enum GuessKind {
     Velocity,
     /// An angular velocity in axes of the ground: of the four coordinates of a quaternion the first has a 0, the others the components.
     Omega,
-    /// The same in axes of the body.
+    /// An angular velocity in axes of the body: of the four coordinates of a quaternion the first has a 0, the others the components.
     Spin,
 }
 

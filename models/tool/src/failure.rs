@@ -46,7 +46,7 @@ impl Failure {
         line.strip_prefix(ERROR).unwrap_or(&line).to_owned()
     }
 
-    /// The same failure, with the run that it is of before its message; as it is where `run` is empty.
+    /// Puts the run that this failure is of before its message; leaves the message as it is where `run` is empty.
     pub(crate) fn of(self, run: &str) -> Self {
         let told = |message| match run {
             "" => message,

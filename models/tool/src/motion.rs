@@ -81,7 +81,8 @@ impl Motion {
         }
     }
 
-    /// The same until an interrupt, with the times that are reached told to `watch`.
+    /// Computes the motion and hands over its samples until an interrupt, and tells the times that are reached to `watch`; why it ends
+    /// early, if it does by an error.
     pub(crate) fn stream(
         &self,
         ready: &Ready<'_>,

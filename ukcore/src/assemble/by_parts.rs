@@ -145,8 +145,8 @@ impl<'a> ByParts<'a> {
         Some((nearest, straight))
     }
 
-    /// The same, and other solutions that are at most `times` as far from the guess, or `none`, in what hangs together, the nearest first:
-    /// in each of them it is another one.
+    /// All parts solved as near to the guess as is found, and other solutions, the nearest first: each has another solution in one group of
+    /// parts that hang together, at most `times` as far from the guess, or `none` away.
     pub(super) fn found_near(&mut self, (times, none): (f64, f64)) -> Option<(Found, Vec<Found>)> {
         let (nearest, straight) = self.found_nearest()?;
         let all: Vec<usize> = (0..self.parts.len()).collect();
@@ -418,7 +418,7 @@ impl<'a> ByParts<'a> {
         self.search.distance(&part.unknowns, self.guess, x)
     }
 
-    /// The same of several parts.
+    /// Σ (Δq √inertia)² of the unknowns of several parts.
     fn distance(&self, group: &[usize], x: &[f64]) -> f64 {
         let distances = group
             .iter()

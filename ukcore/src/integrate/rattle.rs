@@ -35,7 +35,7 @@ pub(super) struct Rattle {
     end: Vec<f64>,
     /// q̇ and q̈ at the start of the step, where q̈ may be off by M⁻¹Aᵀ times something.
     rate: Vec<f64>,
-    /// The same in the course of the attempted step.
+    /// q̇ and q̈ in the course of the attempted step.
     stage_rate: Vec<f64>,
     /// What rounding took from the state at the start of the step, and in the course of the attempted one.
     lost: Vec<f64>,

@@ -109,7 +109,7 @@ pub(super) trait Scheme {
         self.states()[1]
     }
 
-    /// The same, to be projected before the step is closed.
+    /// State at the end of the attempted step, to be projected before the step is closed.
     fn end_mut(&mut self) -> &mut [f64];
 
     /// Whether that state is on the constraints by the method's own doing, and not to be projected.

@@ -40,7 +40,8 @@ impl Size<f64> {
 pub(crate) struct Acceptance<L> {
     /// How readily coordinates move in a search; empty where inertia alone says it.
     pub(super) ease: Vec<f64>,
-    /// The same by inertias: coordinates of one unit need not be of one size, which these may tell. Empty where `ease` is.
+    /// How readily coordinates move by their inertias: coordinates of one unit need not be of one size, which these may tell. Empty where
+    /// `ease` is.
     pub(super) inertial: Vec<f64>,
     /// What makes coordinates of different units comparable; empty where all are of one unit.
     pub(super) units: Vec<f64>,

@@ -213,8 +213,8 @@ impl Manifold {
         Ok(())
     }
 
-    /// The same onto all constraints. Whether each step is no more than a share of the one before: it is small then beside what lies
-    /// between the branches of the motion.
+    /// Moves `x` onto all constraints, by as many steps as that takes from nearby. Returns whether each step is no more than a share of the
+    /// one before: it is small then beside what lies between the branches of the motion.
     pub(super) fn settle_on_all(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<bool, Error> {
         let mut before = f64::INFINITY;
         for _ in 0..NEARBY {

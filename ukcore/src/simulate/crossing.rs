@@ -51,7 +51,8 @@ pub(super) fn find(
     find_of(mech, near, vanishing, all)
 }
 
-/// The same, where no more rows than `most` count anywhere.
+/// The singular position that `near` is near, where no more rows than `most` count anywhere; `None` if there is none or the motion does not
+/// lead there.
 fn find_of(
     mech: &Prepared,
     near: &State,

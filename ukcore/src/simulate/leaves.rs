@@ -31,7 +31,7 @@ pub(super) struct Compared {
     /// The largest change of a row, as a share of what it is at the last; and half of what such changes gain in as much time again, going
     /// on to gain as they did since those before them.
     pub(super) rows: [f64; 2],
-    /// The same, of the entries of its own of a row that has some.
+    /// Both numbers for the entries that a row has of its own, where it has some.
     pub(super) own: [f64; 2],
     /// Whether these are not reversed.
     pub(super) kept: bool,

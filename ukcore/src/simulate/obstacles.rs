@@ -225,7 +225,7 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     }
 }
 
-/// The same of a row by itself.
+/// The singular position at which the row `found` vanishes by itself, if it is one.
 fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Option<Singular> {
     let stood = found.near.t;
     if found.reached < UNTOLD && !found.rest {

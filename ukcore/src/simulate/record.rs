@@ -90,7 +90,8 @@ impl<'s> Recorder<'s> {
         recorded
     }
 
-    /// The same, where a failure leaves behind what was taken before.
+    /// Takes from a step what is wanted of it, and returns the error of what is integrated along it; a failure leaves behind what was taken
+    /// before.
     fn record(&mut self, step: &Step<'_>) -> Result<f64, Error> {
         let trajectory = &mut self.trajectory;
         let mut within = Within {

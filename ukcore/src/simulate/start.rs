@@ -227,7 +227,7 @@ fn near(pair: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
     within(START_BOUND, pair, absolute, measure)
 }
 
-/// The same for another share of its size.
+/// Whether each coordinate changes from `before` to `after` by no more than this share of the state's size, plus its absolute tolerance.
 fn within(share: f64, [before, after]: [&[f64]; 2], absolute: &[f64], measure: &Measure) -> bool {
     let size = share * measure.size(before);
     let changes = before

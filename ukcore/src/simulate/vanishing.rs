@@ -63,8 +63,8 @@ const APART: f64 = 2.5;
 pub(super) enum Loss {
     /// Rows, each by itself, the one that is least first.
     Rows(Vec<Vanishing>),
-    /// The same between states within a step, which need not be those of the motion: of concern where branches cross, or nearly do. Else
-    /// what its ends tell.
+    /// A row that all but vanishes between states within a step, which need not be those of the motion: of concern where branches cross, or
+    /// nearly do. Else the loss that the ends of the step tell counts.
     Within {
         row: Vanishing,
         /// The times of the ends.
@@ -139,7 +139,7 @@ pub(super) struct RowWatch {
     asked: Option<usize>,
     /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
     share: f64,
-    /// The same, at the last state that was looked at alone.
+    /// The least such share at the last state alone that was looked at, for each of the two in `independence`.
     left: [f64; 2],
     /// By how much of itself a row has changed on the way along the step in hand, where that was looked at; else 0.
     turns: f64,

@@ -9,7 +9,7 @@
 
 /// A certificate of an elimination that left out no row.
 const WHOLE: f64 = 1.0;
-/// The same where inertias are far apart.
+/// The certificate of an elimination that left out no row, where inertias are far apart.
 const UNEVEN: f64 = 0.75;
 /// What it loses for each row that was left out, and where more than rounding is left of one: as the compiler emits it. Certificates are
 /// compared for equality, so no elimination that left rows out is used if the two come to differ.
@@ -27,7 +27,7 @@ pub(crate) struct Accepted([f64; 6]);
 impl Accepted {
     /// Of an elimination that left out no row.
     pub(crate) const WHOLE: Accepted = Accepted([WHOLE; 6]);
-    /// The same, whatever the inertias.
+    /// The certificates of an elimination that left out no row, whatever the inertias.
     pub(crate) const INDEPENDENT: Accepted =
         Accepted([WHOLE, WHOLE, WHOLE, UNEVEN, UNEVEN, UNEVEN]);
 

@@ -61,8 +61,8 @@ impl Frame {
         columns.map(|column| g.inner(column, u)).collect()
     }
 
-    /// The same of one column, for a force: what is multiplied by one product of other factors is summed up first. Of T that is a rate of
-    /// turning again.
+    /// One column of R times a force, in which what is multiplied by one product of other factors is summed up first. It is a rate of
+    /// turning again where the force is that of T.
     fn collected(&self, column: &[Id], force: &[Id], g: &mut Graph) -> Id {
         let mut by_others: BTreeMap<Id, Vec<(f64, Id)>> = BTreeMap::new();
         for (a, force) in column.iter().zip(force) {

@@ -234,7 +234,7 @@ impl Lift {
         uses.into_keys().collect()
     }
 
-    /// The same with what parts are the sums of in their places, in the y that are `wanted`; nothing if these have none.
+    /// The lift in which the y that are `wanted` have, in the place of parts, what these are the sums of; nothing if they have no parts.
     pub(super) fn opened(&self, wanted: impl Fn(Id) -> bool, g: &mut Graph) -> Option<Lift> {
         let (parts, mut lift) = (self.parts(g), self.clone());
         for (id, definition) in &self.definitions {

@@ -22,7 +22,7 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// The same of positive sign, inside the domain of most functions, with `m` residuals.
+    /// Random coordinates and velocities in (0.2, 1.2), inside the domain of most functions, with `m` residuals.
     pub(crate) fn positive(params: &'a [f64], n: usize, m: usize, random: &mut Random) -> Self {
         let mut draw = |len| (0..len).map(|_| random.positive()).collect();
         Probe {
@@ -101,7 +101,7 @@ impl Random {
         0.2 + unit
     }
 
-    /// The same, of either sign.
+    /// A number of magnitude in (0.2, 1.2), of either sign.
     pub(crate) fn signed(&mut self) -> f64 {
         let size = self.positive();
         if self.bits() & (1 << 40) == 0 {

@@ -78,7 +78,7 @@ impl Gradient {
         self.by(&mut Derivative::partial(symbol), g)
     }
 
-    /// The same by a derivative that is kept.
+    /// The derivative of the value by `derivative`, which is kept for others.
     pub(crate) fn by(&self, derivative: &mut Derivative, g: &mut Graph) -> Id {
         match derivative.seed {
             Seed::Partial(symbol) if !self.symbols.contains(&symbol) => g.zero(),

@@ -34,7 +34,7 @@ pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
     eval_shaken(g, roots, point, &mut |x| x)
 }
 
-/// The same with `shake` applied to the value of each node: what small changes do to the results shows what rounding may do to them.
+/// Values of `roots` with `shake` applied to the value of each node: what small changes do to them shows what rounding may do.
 pub(crate) fn eval_shaken(
     g: &Graph,
     roots: &[Id],

@@ -67,7 +67,7 @@ fn constants(
     model
 }
 
-/// The same without names that are reserved, for what is evaluated before all names are known.
+/// Resolves constants alone, without names that are reserved, for what is evaluated before all names are known.
 pub(super) fn bare(decl: &Declaration, diag: &Diagnostics) -> Model {
     constants(decl, std::iter::empty(), diag)
 }

@@ -97,7 +97,7 @@ pub(crate) enum Name {
 pub(crate) enum Field {
     /// Index into [`Model::coords`].
     Family(usize),
-    /// The same by indices, where those of all are no array.
+    /// Index into [`Model::coords`] for each member, by its indices, where the coordinates of all are no array.
     Scattered(BTreeMap<Vec<usize>, usize>),
 }
 

@@ -167,7 +167,7 @@ pub(super) fn check(marked: &str, messages: &[&str]) {
     check_after("", marked, messages);
 }
 
-/// The same of a declaration that stands after `before`.
+/// Expects exactly the errors that `marked` marks, each with its message, in a declaration that stands after `before`.
 #[track_caller]
 pub(super) fn check_after(before: &str, marked: &str, messages: &[&str]) {
     let (source, spans) = unmark(&format!("{before}pub T {{ {marked} }}"));

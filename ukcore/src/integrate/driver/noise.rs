@@ -22,7 +22,8 @@ pub(super) const CLEARLY: f64 = 1024.0;
 
 /// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
 const STAGES: f64 = 1.5;
-/// The same of what was found at some states only, with room for steps to grow: they do below 0.6 of what is granted.
+/// The most that stages make of rounding that was found at some states only, with room for steps to grow: they do below 0.6 of what is
+/// granted.
 const SAMPLED: f64 = 2.5;
 
 /// Times that are so many times as far from zero as from the start of the run are late.

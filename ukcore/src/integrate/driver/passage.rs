@@ -28,7 +28,7 @@ const BOLD: f64 = 16.0;
 /// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for in a passage.
 const NOISE: f64 = 256.0 * f64::EPSILON;
 
-/// The same where the motion turns, and most of the error is across it.
+/// The least that is asked for where the motion turns, and most of the error is across it.
 const TURNING: f64 = 0.25 * f64::EPSILON;
 
 /// The largest tolerance that this may lead to: the one where nothing is said.
@@ -442,7 +442,7 @@ impl Driver<'_> {
         }
     }
 
-    /// The same of what the interpolant of the step has met: its stages lie elsewhere.
+    /// Judges the singular position that the interpolant of the step has met, if there is one: it looks at other states than the stages do.
     pub(super) fn survey_interpolant(&mut self, trial: Trial) -> Result<(), Refusal> {
         if self.gap.is_none() {
             return Ok(());

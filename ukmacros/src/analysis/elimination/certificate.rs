@@ -54,16 +54,16 @@ use std::collections::{BTreeSet, HashSet};
 /// module.
 pub(super) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 
-/// The same without constraints: see the module.
+/// The least share d/M of a pivot that is accepted without constraints: see the module.
 const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
-/// The same for multipliers, to which there is no other way: half of their digits are left, as rounding of G makes ε G/d of them. What a
-/// lever between two bearings keeps, or the inertia of a part between heavy ones, may be that little beside what else there is.
+/// The least share d/G of a multiplier, to which there is no other way: half of its digits are left, as rounding of G makes ε G/d of them.
+/// What a lever between two bearings keeps, or the inertia of a part between heavy ones, may be that little beside what else there is.
 const HALF: f64 = 1.0 / (1 << 27) as f64;
 
-/// The same where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate
-/// has, which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A
-/// share only has to be more than rounding.
+/// The least share d/G where no constraint is a pivot by itself: each then follows from the row of M q̈ = Q + Aᵀλ that its coordinate has,
+/// which an elimination of a definite matrix meets to rounding of its terms, however ill q̈ is known in directions without inertia. A share
+/// only has to be more than rounding.
 const DEFINITE: f64 = 1e-13;
 
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
@@ -93,8 +93,8 @@ pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
     pub(crate) certificate: Id,
-    /// The same, and whether q̈ meets the rows in `met`, for the acceleration: less than 1 where rows were left out, as
-    /// [`super::dropping`] has it.
+    /// The certificate of the acceleration: that every pivot is safe, and that q̈ meets the rows in `met`. It is less than 1 where rows
+    /// were left out, as [`super::dropping`] has it.
     pub(crate) met_too: Id,
     /// Constraints whose row of A q̈ = b is checked.
     pub(crate) met: Vec<usize>,

@@ -44,8 +44,8 @@ pub(super) fn freedoms(mut pattern: Pattern) -> (Vec<Rotation>, usize) {
     (late(&found), changes)
 }
 
-/// The same rotations, given with what they touch and whether they wait for others: those that do not wait as late as the others allow, so
-/// that what they leave is soon used.
+/// Orders rotations, given with what they touch and whether they wait for others: those that do not wait come as late as the others allow,
+/// so that what they leave is soon used.
 fn late(found: &[(Rotation, bool, BTreeSet<usize>)]) -> Vec<Rotation> {
     let mut first: BTreeMap<usize, Rotation> = BTreeMap::new();
     for (rotation, waits, _) in found {

@@ -59,9 +59,11 @@ pub(super) enum Taste {
     /// All whose coefficient in a constraint is fixed, those that no other constraint contains first: bodies pinned to each other are taken
     /// leaf by leaf, each with its pins, which is the recursion over articulated bodies.
     Leaves,
-    /// The same with what changes the fewest entries first, as from the ground on; among equals what leaves no division to run time.
+    /// Those of [`Leaves`](Taste::Leaves), with what changes the fewest entries first, as from the ground on; among equals what leaves no
+    /// division to run time.
     Roots,
-    /// The same with what was declared last first: of velocities that are given by each other the last, and each joint once it can be.
+    /// Those of [`Leaves`](Taste::Leaves), with what was declared last first: of velocities that are given by each other the last, and each
+    /// joint once it can be.
     Last,
     /// As multipliers, after what is alone with a constraint in pairs is turned: see [`super::rotation`].
     Freedoms,
@@ -162,7 +164,7 @@ fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usiz
 struct Keys {
     taste: Taste,
     ready: BTreeSet<Key>,
-    /// The same by what they are of; those of pairs are of the coordinate.
+    /// The keys by what they are of; those of pairs are of the coordinate.
     of: Vec<Vec<Key>>,
 }
 

@@ -78,7 +78,7 @@ impl Pattern {
         pattern
     }
 
-    /// The same, in which the constraints `rows` are not turned.
+    /// The pattern in which the constraints `rows` are not turned.
     pub(super) fn keep(mut self, rows: &BTreeSet<usize>) -> Self {
         self.kept = rows.iter().map(|row| self.n + row).collect();
         self

@@ -126,7 +126,7 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// The same for the rate of what is expected.
+    /// Reports `id`, which stands at `loc`, where its dimension is not that of the rate in time of `expected`.
     pub(super) fn expect_rate(&mut self, id: Id, expected: Measured, what: &str, loc: Loc) {
         let found = self.dimension(id).times(Measured::of(Dimension::TIME));
         if let Err((expected, found)) = expected.with(found) {

@@ -86,7 +86,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
     lower_with(decl, model, diag, None).0
 }
 
-/// The same, with a look at `dimensions`.
+/// Lowers everything, with a look at `dimensions` where they are given.
 fn lower_with<'m>(
     decl: &Declaration,
     model: &'m Model,

@@ -18,7 +18,7 @@ enum OfBody {
     Centre,
     /// The angular velocity in axes of the ground.
     Omega,
-    /// The same in axes of the body.
+    /// The angular velocity in axes of the body.
     Spin,
 }
 

@@ -154,7 +154,7 @@ pub(crate) enum GuessKind {
     Velocity,
     /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the ground.
     Omega,
-    /// The same in axes of the body.
+    /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the body.
     Spin,
 }
 
