@@ -21,7 +21,7 @@ mod walk;
 /// A state put together from a guess, and how else it could have been.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled {
-    /// The nearest one.
+    /// The nearest state to the guess.
     pub state: State,
     /// The coordinates that differ from what the guess tells of them and by how much, the largest difference in terms of inertia first.
     pub moved: Vec<(&'static str, f64)>,

@@ -47,7 +47,7 @@ pub struct Diagnosis {
     pub idle: Vec<(String, usize)>,
     /// Constraints that follow from those declared before them.
     pub redundant: Vec<Redundant>,
-    /// Of the redundant ones those that are not so at positions nearby: the state is a singular position.
+    /// The redundant constraints that are not so at positions nearby: where there are some, the state is a singular position.
     pub only_here: Vec<String>,
     /// Constraints whose multiplier is not unique: those that follow from others, and those from which they follow. Forces of all others
     /// are.
@@ -61,7 +61,7 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// In a sentence, the constraints that come nearest to depending on each other, and by which margin; `None` where there are no two.
+    /// Says in a sentence which constraints come nearest to depending on each other, and by which margin; `None` where there are no two.
     #[must_use]
     pub fn nearness(&self) -> Option<String> {
         let margin = match self.margin {
@@ -79,7 +79,7 @@ impl Diagnosis {
 /// A constraint that others imply.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Redundant {
-    /// Its name.
+    /// The constraint's name.
     pub name: String,
     /// The constraints that imply it; none for one that has no gradient at the state.
     pub follows_from: Vec<String>,
@@ -179,8 +179,8 @@ fn without_inertia(mech: &Prepared, state: &State) -> Option<String> {
     (!gone.is_empty()).then(|| quoted(&gone))
 }
 
-/// In a clause, which constraints have it that reactions of theirs are not numbers at `state`, and what to do; `None` where all reactions
-/// are unique, and where that is unknown.
+/// Says in a clause which constraints have it that reactions of theirs are not numbers at `state`, and what to do; `None` where all
+/// reactions are unique, and where that is unknown.
 pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
     let mech: Prepared = mechanism.into();
     let State { t, q, v } = state;

@@ -14,13 +14,13 @@ use crate::spectrum::singular;
 /// What a motor does at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// The row of the constraint, or the coordinate.
+    /// The name of the constraint's row, or of the coordinate.
     pub name: &'static str,
-    /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place, on the second body, in
+    /// The multiplier of a row: the torque where it prescribes an angle, the force where it prescribes a place, on the second body, in
     /// [`Spec::multiplier_unit`](crate::spec::Spec::multiplier_unit); of a `rod`, whose row is that of squares, half the force over the
-    /// length. Of a coordinate the generalised force on it.
+    /// length. For a coordinate, the generalised force on it.
     pub effort: f64,
-    /// The power that it puts into the mechanism: the effort times the rate at which it moves.
+    /// The power that the motor puts into the mechanism: the effort times the rate at which it moves.
     pub power: f64,
 }
 
@@ -70,7 +70,7 @@ pub struct Inverse {
 }
 
 impl Inverse {
-    /// Of the constraints `motors` of `mechanism`, each by its name or by that of a row of it.
+    /// Prepares the efforts of the constraints `motors` of `mechanism`, each by its name or by that of a row of it.
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.

@@ -27,7 +27,7 @@ pub struct Kinematics {
     mechanism: Prepared,
     /// The positions, with velocities and accelerations, in the order of the sweep: those of its even parts that are reached.
     pub postures: Vec<Posture>,
-    /// Where the drive cannot go on, in the order of the sweep; none if it is all done.
+    /// The limits, where the drive cannot go on, in the order of the sweep; none if the whole sweep is done.
     pub limits: Vec<Limit>,
     /// Whether velocities are those in time, since that is a drive.
     timed: bool,
@@ -36,9 +36,9 @@ pub struct Kinematics {
 /// A limit of motion: a dead centre of the drive, at which it stands still while the mechanism moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
-    /// The drives with their values there.
+    /// The drives with their values at the limit.
     pub drives: Vec<(&'static str, f64)>,
-    /// The position there. Its velocities are those with which the mechanism goes on while the drives stand still: 1 for
+    /// The position at the limit. Its velocities are those with which the mechanism goes on while the drives stand still: 1 for
     /// [`leader`](Limit::leader).
     pub state: State,
     /// The constraints that hold the drive there, such as those of two rods in one line.
@@ -104,8 +104,8 @@ pub fn kinematics(
 }
 
 impl Kinematics {
-    /// Returns the sweep run at another speed: velocities are multiplied by `speed`, accelerations by its square. `speed` is that of the
-    /// first drive, which is 1 as the sweep is found.
+    /// Returns these postures at another speed: velocities are multiplied by `speed`, accelerations by its square. `speed` is that of the
+    /// first drive, which is 1 where [`kinematics`](kinematics()) finds them.
     ///
     /// # Errors
     /// [`Error::InvalidSetting`] where `t` is a drive, which prescribes all velocities; [`Error::NonFinite`].

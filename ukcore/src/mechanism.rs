@@ -159,7 +159,7 @@ pub enum Branch {
 }
 
 impl Branch {
-    /// −1 or 1; 0 where none is held.
+    /// The sign of the branch: −1 or 1; 0 where none is held.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {

@@ -67,7 +67,7 @@ pub trait Model: Mechanism {
 /// States of a motion that are known in closed form, or from integrations with more digits than an `f64` holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// Where the states come from, in a few words.
+    /// The origin of the states, in a few words.
     pub source: &'static str,
     /// Bound of the error of every coordinate and velocity, in their own units.
     pub error: f64,
@@ -93,7 +93,7 @@ impl Reference {
         }
     }
 
-    /// This reference without the states later than `end`, s.
+    /// The part of this reference up to the time `end`, s.
     #[must_use]
     pub fn up_to(&self, end: f64) -> Self {
         let mut shorter = self.clone();
@@ -110,15 +110,15 @@ type Start = fn(&Prepared, &str, &StartOptions) -> Result<State, Error>;
 pub struct Entry {
     /// Name on the command line: [`Model::ID`], or the name of the type as [`kebab_case`].
     pub id: String,
-    /// The mechanism in one line.
+    /// What the mechanism is, in one line.
     pub summary: &'static str,
     /// The mechanism with its default parameters.
     pub mechanism: Prepared,
     /// The start states on offer; the first is the default.
     pub starts: &'static [StartSpec],
-    /// [`Model::duration`].
+    /// The duration of a run, s: [`Model::duration`].
     pub duration: f64,
-    /// [`Model::variations`].
+    /// Sets of parameters worth being measured with, too: [`Model::variations`].
     pub variations: &'static [&'static [(&'static str, f64)]],
     /// The emitted functions: name and text.
     pub code: &'static [(&'static str, &'static str)],
@@ -127,7 +127,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The model `M`.
+    /// The entry of the model `M`.
     #[must_use]
     pub fn of<M: Model>() -> Self {
         let start: Start = |mechanism, name, options| {
@@ -182,7 +182,7 @@ impl Entry {
         (self.start)(mechanism, name, options)
     }
 
-    /// [`Model::references`].
+    /// The states to compare motions with: [`Model::references`].
     #[must_use]
     pub fn references(&self) -> Vec<Reference> {
         (self.references)()
@@ -220,16 +220,16 @@ macro_rules! entry {
     }};
 }
 
-/// A type, for [`entry!`](crate::entry).
+/// Stands for a type in [`entry!`](crate::entry).
 #[doc(hidden)]
 pub struct Type<M>(PhantomData<M>);
 
 impl<M> Type<M> {
-    /// The only value.
+    /// The only value of the type.
     pub const NEW: Self = Type(PhantomData);
 }
 
-/// For [`entry!`](crate::entry).
+/// Makes [`entry!`](crate::entry) take a [`Model`] as such.
 #[doc(hidden)]
 pub trait AsModel {
     fn entry(&self) -> Entry;
@@ -241,7 +241,7 @@ impl<M: Model> AsModel for Type<M> {
     }
 }
 
-/// For [`entry!`](crate::entry).
+/// Makes [`entry!`](crate::entry) take a [`Mechanism`] that is no [`Model`].
 #[doc(hidden)]
 pub trait AsMechanism {
     fn entry(&self) -> Entry;

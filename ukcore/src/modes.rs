@@ -43,7 +43,7 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// The magnitude of its eigenvalue, 1/s.
+    /// The magnitude of the mode's eigenvalue, 1/s.
     #[must_use]
     pub fn size(&self) -> f64 {
         self.growth.hypot(self.frequency)

@@ -235,7 +235,7 @@ float!(f32);
 pub struct Dual<S = f64, E = S> {
     /// The value.
     pub re: S,
-    /// Its derivative.
+    /// The derivative of the value.
     pub eps: E,
 }
 

@@ -133,7 +133,7 @@ impl Simulation {
         self
     }
 
-    /// The integration method.
+    /// Sets the integration method.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
         self.method = method;
@@ -181,7 +181,7 @@ impl Simulation {
         self
     }
 
-    /// The formula for the accelerations.
+    /// Sets the formula for the accelerations.
     #[must_use]
     pub fn formula(mut self, formula: Formula) -> Self {
         self.formula = formula;
@@ -235,14 +235,14 @@ impl Simulation {
         self
     }
 
-    /// Largest step size. (The last step may be a hundredth larger, to arrive at the end.)
+    /// Sets the largest step size. The last step may be a hundredth larger, to arrive at the end.
     #[must_use]
     pub fn max_step(mut self, step: f64) -> Self {
         self.max_step = Some(step);
         self
     }
 
-    /// Size of the first step to be tried.
+    /// Sets the size of the first step to be tried.
     #[must_use]
     pub fn first_step(mut self, step: f64) -> Self {
         self.first_step = Some(step);

@@ -387,7 +387,7 @@ impl Solver {
         &mut self.mechanism
     }
 
-    /// What has been done so far.
+    /// The work that the solver has done in all its solutions.
     #[must_use]
     pub fn work(&self) -> SolverWork {
         self.work

@@ -33,11 +33,11 @@ pub struct Spec {
     pub outputs: &'static [OutputSpec],
     /// The declared starts, in their order.
     pub starts: &'static [StartSpec],
-    /// How it is drawn.
+    /// The picture of the mechanism.
     pub drawing: Drawing,
-    /// Where the equations of motion have kinks or jumps, in the order of `Mechanism::switching`.
+    /// The switches of the equations of motion, at which these have kinks or jumps, in the order of `Mechanism::switching`.
     pub switches: &'static [SwitchSpec],
-    /// What the compiler found out.
+    /// What the compiler found out about the mechanism.
     pub structure: Structure,
     /// The derived equations, readable.
     pub equations: Equations,
@@ -52,9 +52,9 @@ pub struct ParamSpec {
     pub doc: &'static str,
     /// Default value.
     pub default: f64,
-    /// Its unit in SI, such as `"kg m^2"`; empty for a plain number, and where none is declared.
+    /// The parameter's unit in SI, such as `"kg m^2"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
-    /// The unit that its default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
+    /// The unit that the default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
     pub written: &'static str,
 }
 
@@ -74,11 +74,11 @@ pub struct OutputSpec {
 pub struct StartSpec {
     /// Name on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// What the start is, in one line.
     pub doc: &'static str,
-    /// Its options.
+    /// The options that the start has.
     pub options: &'static [StartOption],
-    /// How long a typical run from it lasts, s.
+    /// How long a typical run from the start lasts, s.
     pub duration: f64,
 }
 
@@ -98,13 +98,13 @@ impl StartSpec {
 pub struct StartOption {
     /// Name on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// What the option is, in one line.
     pub doc: &'static str,
-    /// Its value where none is given.
+    /// The value of the option where none is given.
     pub default: f64,
-    /// Its unit in SI, such as `"rad"`; empty for a plain number, and where none is declared.
+    /// The option's unit in SI, such as `"rad"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
-    /// The unit that its default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
+    /// The unit that the default is written in, where numbers of it are not in SI, such as `"mm"` or `"deg"`; else empty.
     pub written: &'static str,
 }
 
@@ -119,13 +119,13 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// No picture.
+    /// The picture in which nothing is drawn.
     pub const NONE: Drawing = Drawing {
         dimension: 0,
         shapes: &[],
     };
 
-    /// How many numbers its shapes have in all.
+    /// How many numbers the shapes have in all.
     #[must_use]
     pub fn numbers(&self) -> usize {
         self.shapes.iter().map(|shape| shape.numbers).sum()
@@ -135,9 +135,9 @@ impl Drawing {
 /// A shape of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShapeSpec {
-    /// What it is.
+    /// What the shape is.
     pub kind: ShapeKind,
-    /// How many numbers it has: its points one after the other, of a circle the radius behind.
+    /// How many numbers the shape has: those of its points one after the other, of a circle the radius behind.
     pub numbers: usize,
     /// What a text says; empty for all else.
     pub label: &'static str,
@@ -165,9 +165,9 @@ pub enum ShapeKind {
 /// What is said of a coordinate at a start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GuessKind {
-    /// Its value.
+    /// The value of the coordinate.
     Position,
-    /// Its velocity.
+    /// The velocity of the coordinate.
     Velocity,
     /// An angular velocity in axes of the ground: of the four coordinates of a quaternion the first has a 0, the others the components.
     Omega,
@@ -180,11 +180,11 @@ pub enum GuessKind {
 pub struct Guess {
     /// The coordinate, in the order of [`Spec::coords`].
     pub coordinate: usize,
-    /// What of it.
+    /// Which quantity of the coordinate is meant: its value, its velocity, or its part of an angular velocity.
     pub kind: GuessKind,
-    /// Whether it keeps its value where the start is assembled.
+    /// Whether the coordinate keeps this value where the start is assembled.
     pub held: bool,
-    /// Its value.
+    /// The value that the start gives or guesses.
     pub value: f64,
 }
 
@@ -192,7 +192,7 @@ pub struct Guess {
 /// min(a, b) and max(a, b) at those of a − b; the direction v/|v| of a vector at those of its length |v|.
 #[derive(Debug)]
 pub struct SwitchSpec {
-    /// g, readable.
+    /// The switching function g, readable.
     pub function: &'static str,
     /// The terms of the equations of motion that contain it: "force on `x`", "non-ideal force on `x`", "mass on `x`", "constraint `rod`".
     pub terms: &'static [&'static str],
@@ -218,9 +218,9 @@ impl SwitchSpec {
 pub struct ConstraintSpec {
     /// Name as declared, with indices (`link[3]`; components of vector equations `joint[0]`, `joint[1]`).
     pub name: &'static str,
-    /// Holonomic or nonholonomic.
+    /// Whether the constraint is holonomic or nonholonomic.
     pub kind: ConstraintKind,
-    /// φ = 0, readable.
+    /// The constraint's equation φ = 0, readable.
     pub equation: &'static str,
 }
 
@@ -237,20 +237,20 @@ pub enum ConstraintKind {
 /// line, which ends with the values of the letters in it.
 #[derive(Debug)]
 pub struct Equations {
-    /// Abbreviations that the others use.
+    /// Abbreviations that the other equations use.
     pub definitions: &'static [&'static str],
-    /// The lower triangle of M.
+    /// The entries of the lower triangle of M.
     pub mass: &'static [&'static str],
-    /// Q.
+    /// The entries of Q.
     pub force: &'static [&'static str],
-    /// c.
+    /// The entries of c.
     pub nonideal: &'static [&'static str],
     /// Each constraint, followed by its entries of A and of b.
     pub constraints: &'static [&'static str],
 }
 
 impl Equations {
-    /// No equations.
+    /// The equations of a mechanism of which none are known.
     pub const NONE: Equations = Equations {
         definitions: &[],
         mass: &[],
@@ -261,7 +261,7 @@ impl Equations {
 }
 
 impl Spec {
-    /// Of a mechanism without coordinates; to be filled in by struct update.
+    /// The description of a mechanism without coordinates; to be filled in by struct update.
     pub const EMPTY: Spec = Spec {
         name: "",
         doc: "",

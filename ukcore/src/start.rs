@@ -14,13 +14,13 @@ pub struct StartOptions {
 }
 
 impl StartOptions {
-    /// No option given: all defaults.
+    /// Options of which none is given: all have their defaults.
     #[must_use]
     pub fn new() -> Self {
         StartOptions::default()
     }
 
-    /// These options and `name` = `value`.
+    /// These options with the value of `name` set to `value`, in the unit of its [`StartOption`].
     #[must_use]
     pub fn with(mut self, name: &str, value: f64) -> Self {
         self.set(name, value);

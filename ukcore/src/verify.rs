@@ -33,11 +33,11 @@ const CHANGE: f64 = 0.2;
 /// What [`verify`] looked at.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
-    /// The mechanism.
+    /// The name of the mechanism.
     pub name: &'static str,
-    /// States on the constraints.
+    /// How many states on the constraints were looked at.
     pub states: usize,
-    /// Numbers compared.
+    /// How many numbers were compared.
     pub numbers: usize,
     /// The largest deviation from what it is to be, as a part of what was allowed.
     pub worst: f64,
@@ -46,7 +46,7 @@ pub struct Verified {
 /// What of a mechanism is not what its declaration says.
 #[derive(Clone, PartialEq)]
 pub struct Unverified {
-    /// The mechanism.
+    /// The name of the mechanism.
     pub name: &'static str,
     /// A sentence for each fault, with the names of rows and coordinates.
     pub faults: Vec<String>,

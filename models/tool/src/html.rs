@@ -197,15 +197,15 @@ pub type Section = ([&'static str; 3], Markup);
 /// A page of numbered sections that are linked at its top, in the style of reports.
 #[derive(Debug, Clone)]
 pub struct Page<'a> {
-    /// Its title and first heading.
+    /// The title of the page, which is its first heading, too.
     pub title: &'a str,
-    /// What stands between heading and links.
+    /// What stands between the heading and the links.
     pub head: Markup,
     /// Files beside the page that are linked: their names, and the texts of the links.
     pub files: &'a [(&'a str, &'a str)],
     /// The sections, in order.
     pub sections: Vec<Section>,
-    /// The last lines.
+    /// The last lines of the page.
     pub foot: Markup,
 }
 

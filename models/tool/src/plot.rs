@@ -58,17 +58,17 @@ const FRAME: RGBColor = RGBColor(90, 90, 90);
 /// A curve of a chart: points joined by a line, with an entry in the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// Entry of the legend; none if empty.
+    /// The curve's text in the legend; no entry if empty.
     pub label: String,
-    /// The points, in order.
+    /// The points of the curve, in order.
     pub points: Vec<(f64, f64)>,
-    /// Colour.
+    /// The colour of the curve.
     pub colour: RGBColor,
-    /// Width in pixels.
+    /// The width of the curve in pixels.
     pub width: u32,
-    /// Dashed.
+    /// Whether the curve is dashed.
     pub dashed: bool,
-    /// Radius of a dot at each point; 0 for none.
+    /// Radius of a dot at each point in pixels; 0 for none.
     pub dots: u32,
     /// Points with a ring instead of a dot.
     pub rings: Vec<(f64, f64)>,

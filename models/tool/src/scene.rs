@@ -57,13 +57,13 @@ impl Place {
 /// A mechanism with the parameters asked for, at the start asked for.
 pub struct Ready<'a> {
     pub(crate) entry: &'a Entry,
-    /// With its parameters.
+    /// The mechanism with the parameters asked for.
     pub mechanism: Prepared,
     /// Name of the start; `"assembled"` where it was found from a guess.
     pub start: &'static str,
-    /// The state there.
+    /// The state at the start.
     pub state: State,
-    /// How long a typical run from it lasts, s.
+    /// How long a typical run from the start lasts, s.
     pub duration: f64,
 }
 

@@ -53,7 +53,7 @@ pub struct Member {
     pub integrals: Vec<f64>,
     /// The samples asked for, in the order of integration.
     pub samples: Vec<State>,
-    /// What it cost.
+    /// What the motion cost.
     pub work: Work,
 }
 

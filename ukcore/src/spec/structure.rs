@@ -177,7 +177,7 @@ impl Operations {
         ]
     }
 
-    /// Both one after the other.
+    /// The operations of both, one after the other.
     #[must_use]
     pub const fn then(self, other: Operations) -> Operations {
         Operations {
@@ -192,7 +192,7 @@ impl Operations {
 }
 
 impl Solve {
-    /// Without a straight line.
+    /// A solve without a straight line, for the reason `refusal`.
     #[must_use]
     pub const fn none(refusal: &'static str) -> Self {
         Solve {
@@ -213,7 +213,7 @@ impl Solve {
 }
 
 impl Costs {
-    /// No cost is known.
+    /// The costs where none is known.
     pub const NONE: Costs = Costs {
         dynamics: Operations::NONE,
         dense: Operations::NONE,
@@ -236,7 +236,7 @@ impl Structure {
         entries.filter(move |(c, _)| *c == row).map(|(_, j)| *j)
     }
 
-    /// Of a mechanism about which nothing is known.
+    /// The structure of a mechanism about which nothing is known.
     pub const EMPTY: Structure = Structure {
         straight_line: false,
         solve: Solve::none(""),

@@ -24,7 +24,7 @@ impl Residual {
         }
     }
 
-    /// The larger one of the two.
+    /// The larger one of the residuals of position and velocity.
     #[must_use]
     pub fn largest(self) -> f64 {
         nan_max(self.position, self.velocity)
@@ -65,7 +65,7 @@ impl Drift {
         self.energy.add(self.mechanism.energy(t, q, v));
     }
 
-    /// Number of samples so far.
+    /// Number of samples that were added.
     #[must_use]
     pub fn samples(&self) -> usize {
         self.samples

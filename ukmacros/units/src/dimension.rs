@@ -32,24 +32,24 @@ pub(crate) fn twelfths(x: f64) -> Option<i32> {
 }
 
 impl Dimension {
-    /// That of a plain number.
+    /// The dimension of a plain number.
     pub const NUMBER: Dimension = Dimension::new([0; 4]);
-    /// Of a mass.
+    /// The dimension of a mass.
     pub const MASS: Dimension = Dimension::new([1, 0, 0, 0]);
-    /// Of a length.
+    /// The dimension of a length.
     pub const LENGTH: Dimension = Dimension::new([0, 1, 0, 0]);
-    /// Of a time.
+    /// The dimension of a time.
     pub const TIME: Dimension = Dimension::new([0, 0, 1, 0]);
-    /// Of an acceleration.
+    /// The dimension of an acceleration.
     pub const ACCELERATION: Dimension = Dimension::new([0, 1, -2, 0]);
-    /// Of an inertia about an axis.
+    /// The dimension of an inertia about an axis.
     pub const INERTIA: Dimension = Dimension::new([1, 2, 0, 0]);
-    /// Of a power.
+    /// The dimension of a power.
     pub const POWER: Dimension = Dimension::new([1, 2, -3, 0]);
-    /// Of an energy.
+    /// The dimension of an energy.
     pub const ENERGY: Dimension = Dimension::new([1, 2, -2, 0]);
 
-    /// From whole exponents of kilogram, metre, second and radian.
+    /// The dimension with these whole exponents of kilogram, metre, second and radian.
     #[must_use]
     pub const fn new(exponents: [i32; 4]) -> Self {
         let [kg, m, s, rad] = exponents;
@@ -58,7 +58,7 @@ impl Dimension {
         }
     }
 
-    /// Of a product.
+    /// The dimension of a product of two quantities, of this dimension and of `other`.
     #[must_use]
     pub fn times(self, other: Dimension) -> Self {
         let sum = |i: usize| self.twelfths[i].saturating_add(other.twelfths[i]);
@@ -67,13 +67,13 @@ impl Dimension {
         }
     }
 
-    /// Of a quotient.
+    /// The dimension of a quantity of this dimension over one of `other`.
     #[must_use]
     pub fn per(self, other: Dimension) -> Self {
         self.times(other.scaled(-TWELFTHS))
     }
 
-    /// Of a power; none if its exponents are no twelfths.
+    /// The dimension of a quantity of this one raised to `exponent`; none if its exponents are no twelfths.
     #[must_use]
     pub fn power(self, exponent: f64) -> Option<Self> {
         let power = |e: i32| twelfths(f64::from(e) / f64::from(TWELFTHS) * exponent);
@@ -83,7 +83,7 @@ impl Dimension {
         })
     }
 
-    /// Of a power in twelfths.
+    /// The dimension of a quantity of this one raised to so many twelfths.
     pub(crate) fn scaled(self, power: i32) -> Self {
         Dimension {
             twelfths: self.twelfths.map(|e| e.saturating_mul(power) / TWELFTHS),
@@ -99,7 +99,7 @@ impl Dimension {
         }
     }
 
-    /// The same with angles as plain numbers.
+    /// This dimension with angles taken for plain numbers: without its exponent of the radian.
     #[must_use]
     pub const fn without_angle(self) -> Self {
         let [kg, m, s, _] = self.twelfths;
@@ -108,7 +108,7 @@ impl Dimension {
         }
     }
 
-    /// Whether mass is a part of it.
+    /// Whether mass is a part of this dimension.
     #[must_use]
     pub const fn has_mass(self) -> bool {
         self.twelfths[0] != 0

@@ -91,7 +91,7 @@ fn named(name: &str) -> Option<(Prefix, &'static Base)> {
 }
 
 impl Unit {
-    /// Reads a unit.
+    /// Reads a unit from its text, such as `kN/mm`, `kg m^2` or `-` for a plain number.
     ///
     /// # Errors
     /// What is wrong with `text`.
@@ -130,7 +130,7 @@ impl Unit {
         }
     }
 
-    /// What it measures.
+    /// The dimension of what the unit measures.
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         let powers = self
@@ -154,7 +154,7 @@ impl Unit {
         shifted(x * down / up, -decimals)
     }
 
-    /// Whether numbers of it are numbers in kg, m, s and rad.
+    /// Whether numbers of this unit are numbers in kg, m, s and rad.
     #[must_use]
     pub fn is_coherent(&self) -> bool {
         self.scale() == (1.0, 1.0, 0)
@@ -177,8 +177,8 @@ impl Unit {
         (up, down, decimals)
     }
 
-    /// The same product of kilogram, metre, second, radian and units made of these: `N/m` of `kN/mm`, `rad/s` of `rpm`; nothing of a
-    /// number.
+    /// The unit that stands for this one in SI, of kilogram, metre, second, radian and units made of these: `N/m` for `kN/mm`, `rad/s` for
+    /// `rpm`; empty for a plain number.
     #[must_use]
     pub fn si(&self) -> String {
         let mut powers: Vec<(&str, i32)> = Vec::new();

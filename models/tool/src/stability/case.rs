@@ -58,7 +58,7 @@ pub struct Case<'a> {
     /// The values, each with the text that stands for it if that is not the number.
     #[serde(flatten)]
     pub sweep: Sweep,
-    /// The error at a value.
+    /// Measures the error at a value.
     #[serde(skip)]
     pub measure: Measure<'a>,
 }
@@ -80,25 +80,25 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// What is swept, in what mechanism.
+    /// Says what is swept, in what mechanism.
     pub fn swept(mut self, swept: impl Into<Cow<'a, str>>) -> Self {
         self.swept = swept.into();
         self
     }
 
-    /// The values.
+    /// Gives the values that are swept.
     pub fn over(mut self, sweep: Sweep) -> Self {
         self.sweep = sweep;
         self
     }
 
-    /// What the results are compared with.
+    /// Says what the results are compared with.
     pub fn against(mut self, oracle: &'a str) -> Self {
         self.oracle = oracle;
         self
     }
 
-    /// Errors up to which results are accurate, and degraded.
+    /// Sets the bounds of the errors up to which results are accurate, and degraded.
     pub fn within(mut self, accurate: f64, bound: f64) -> Self {
         (self.accurate, self.bound) = (accurate, bound);
         self
