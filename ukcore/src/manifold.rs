@@ -45,7 +45,7 @@ pub enum Stabilisation {
     None,
 }
 
-/// As it is read by [`FromStr`]: `projection`, `baumgarte=20,20`, `none`.
+/// Writes the stabilisation as [`FromStr`] reads it: `projection`, `baumgarte=20,20`, `none`.
 impl fmt::Display for Stabilisation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -103,7 +103,7 @@ pub struct Correction {
 /// Projects states onto the constraints, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Projector {
-    /// With the branches of switches that are held.
+    /// The mechanism, with the branches of switches that are held.
     pub(crate) mechanism: Prepared,
     manifold: Manifold,
     /// Whether units are compared: those of the first state are kept.

@@ -358,7 +358,7 @@ impl fmt::Debug for Simulation {
     }
 }
 
-/// As `Display`: `main` prints the error it returns by `Debug`.
+/// Writes the failure as `Display` does: `main` prints the error it returns by `Debug`.
 impl fmt::Debug for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -34,9 +34,9 @@ pub(crate) struct Place {
 pub(crate) struct Trial {
     pub(crate) start: Place,
     pub(crate) end: Place,
-    /// Its signed size; more than the way to its end where it is cut, and goes on behind that.
+    /// The step's signed size; more than the way to its end where it is cut, and goes on behind that.
     pub(crate) h: f64,
-    /// It ends at the end of the run.
+    /// Whether the step ends at the end of the run.
     pub(crate) last: bool,
 }
 

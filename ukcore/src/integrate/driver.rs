@@ -30,19 +30,19 @@ const STUCK: usize = 100;
 
 /// Why an attempted step is not accepted.
 enum Refusal {
-    /// It could not be made.
+    /// The step could not be made.
     Stage(Cause),
-    /// Its error is that many times too large.
+    /// The step's error is that many times too large.
     Inaccurate(f64),
-    /// The state at its end does not do.
+    /// The state at the end of the step does not do.
     End(Cause),
-    /// It goes over a singular position where it was not to.
+    /// The step goes over a singular position where it was not to.
     Unplanned,
-    /// It does not lead through a state that is known.
+    /// The step does not lead through a state that is known.
     Astray,
     /// There is a singular position ahead of which nobody can tell whether the motion passes it.
     Undecided(Box<Trouble>),
-    /// It is good, with this error, but leaves the branches of its start.
+    /// The step is good, with this error, but leaves the branches of its start.
     Leaves(Leaving, f64),
 }
 
@@ -50,7 +50,7 @@ struct Driver<'p> {
     equations: Equations<'p>,
     settings: &'p Settings,
     scheme: Box<dyn Scheme>,
-    /// That of the step in hand.
+    /// The tolerance of the step in hand.
     tolerance: Tolerance,
     /// State at the end of the attempted step before its projection.
     raw: Vec<f64>,

@@ -240,7 +240,7 @@ pub(crate) struct Singular {
     /// How many times ε coordinates are known to there, as a share of what makes a constraint significant: more than 1 far off, or after
     /// many turns.
     pub(crate) rounding: f64,
-    /// These constraints.
+    /// The constraints that are lost at the position.
     pub(crate) constraints: Vec<String>,
 }
 
@@ -293,7 +293,7 @@ pub(crate) struct Step<'a> {
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
     /// What the state at its end is thought to be off, at most 1 in the error norm; there with the interpolant, if the method estimates it.
     pub(crate) error: Option<&'a [f64]>,
-    /// It is near a singular position, or goes over it.
+    /// Whether the step is near a singular position, or goes over it.
     pub(crate) nearby: bool,
 }
 
@@ -323,7 +323,7 @@ pub(crate) enum Next {
 /// Settings of a run, validated.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    /// Of each step, for each component.
+    /// The tolerance of each step, for each component.
     pub(crate) tolerance: Tolerance,
     /// First step size, positive; `None`: chosen by the method.
     pub(crate) first_step: Option<f64>,
@@ -340,9 +340,9 @@ pub(crate) struct Settings {
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Outcome {
-    /// At the end time.
+    /// The run has reached its end time.
     Reached,
-    /// Where [`Problem::step`] said so.
+    /// The run ended where [`Problem::step`] said so.
     Stopped,
     /// No step, however small, succeeded; or there were too many.
     Failed(Trouble),

@@ -93,7 +93,7 @@ impl Turning {
 pub(super) struct Radau {
     n: usize,
     newton: Newton,
-    /// Of the estimate of the error.
+    /// The tolerance of the estimate of the error.
     tolerance: Tolerance,
     size: StepSize,
     /// State at the start of the step, and at its end.
@@ -116,7 +116,7 @@ pub(super) struct Radau {
 }
 
 impl Radau {
-    /// From a state, with the tolerance of the run.
+    /// The method at a state, with the tolerance of the run.
     pub(super) fn new(start: &[f64], mut tolerance: Tolerance) -> Self {
         tolerance.relative = estimate_tolerance(tolerance.relative);
         let n = start.len() / 2;
@@ -317,7 +317,7 @@ impl Scheme for Radau {
         &self.dense
     }
 
-    /// In the direction of the error of order 3.
+    /// Scales the error to this norm, in the direction of the error of order 3.
     fn scale_error(&mut self, norm: f64) {
         let states = [&self.start[..], &self.end];
         let share = run_tolerance(self.tolerance.relative) / self.tolerance.relative;

@@ -48,7 +48,7 @@ pub(super) struct Rattle {
 }
 
 impl Rattle {
-    /// From a state, over the time `span` of either sign, in equal steps of at most `step`.
+    /// The method at a state, over the time `span` of either sign, in equal steps of at most `step`.
     pub(super) fn new(start: &[f64], step: f64, span: f64) -> Self {
         let n = start.len() / 2;
         let zeros = |rows: usize| vec![0.0; rows * n];

@@ -158,11 +158,11 @@ pub(super) trait Scheme {
     /// Size of the next attempt after one of size `h` whose end did not do.
     fn unfit(&mut self, h: f64) -> f64;
 
-    /// From the next attempt on steps have this tolerance.
+    /// Gives the steps from the next attempt on this tolerance.
     fn tolerate(&mut self, _tolerance: &Tolerance) {}
 
-    /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
-    /// cannot be put so that a place lies in it.
+    /// The times between which no stage lies, in the widest such gap, as shares of the step; `None` where steps are of one size, and cannot
+    /// be put so that a place lies in it.
     fn gap(&self) -> Option<[f64; 2]> {
         None
     }

@@ -24,7 +24,7 @@ pub(crate) struct Stepper<S> {
     pub(super) tableau: &'static Tableau,
     sums: Sums<S>,
     n: usize,
-    /// Of a step.
+    /// The tolerance of a step.
     pub(crate) tolerance: Tolerance<S>,
     /// State at the start of the step.
     start: Vec<S>,
@@ -32,7 +32,7 @@ pub(crate) struct Stepper<S> {
     end: Vec<S>,
     /// Rates at the stages, row by row: those of the step, the closing one, those for the interpolant.
     rates: Vec<S>,
-    /// Where a stage is evaluated.
+    /// The state at which a stage is evaluated.
     argument: Vec<S>,
     /// What rounding took from the state at the start of the step, to be added to the change that the step makes.
     lost: Vec<S>,
@@ -207,7 +207,7 @@ impl<S: Scalar> Stepper<S> {
         best / (S::from_f64(n.max(1) as f64) * divisor).sqrt()
     }
 
-    /// Where the state at the end of the attempted step is thought to be off, but for its size: the first estimate.
+    /// The first estimate of what the state at the end of the attempted step is off: its direction, not its size.
     pub(crate) fn estimate(&self) -> &[S] {
         &self.errors[..self.n]
     }

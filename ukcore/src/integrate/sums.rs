@@ -60,12 +60,12 @@ pub(super) fn sum<S: Scalar, const N: usize>(
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tolerance<S = f64> {
     pub(crate) relative: f64,
-    /// In the unit of each component: what is small beside it counts as much as it.
+    /// The floor of each component in its unit: the size that a component near zero is measured by.
     pub(crate) floors: Vec<S>,
 }
 
 impl<S: Scalar> Tolerance<S> {
-    /// In component `i`, of this size.
+    /// The error that is allowed in component `i`, of this size.
     #[inline(always)]
     pub(crate) fn at(&self, i: usize, size: S) -> S {
         S::from_f64(self.relative) * (self.floors[i] + size)

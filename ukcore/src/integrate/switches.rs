@@ -25,7 +25,7 @@ pub(super) use turn::Stuck;
 /// Parts into which a step is divided in the search for sign changes.
 const PARTS: usize = 8;
 
-/// Where branches are taken within a step, it is divided more finely next to that place.
+/// Distances from a place within a step where branches are taken, at which the step is divided more finely.
 const SOON: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
 
 /// A zero nearer than this part of a step to its end is at its end.
@@ -37,11 +37,11 @@ const TOGETHER: f64 = 1e-10;
 /// How a step leaves its branches, with the switches that do first.
 #[derive(Debug, PartialEq)]
 pub(super) enum Leaving {
-    /// At its start: they stand at zero, and go the other way.
+    /// The switches stand at zero at the start of the step, and go the other way.
     AtOnce(Vec<usize>),
-    /// At this part of it.
+    /// The switches leave at this part of the step.
     Within(f64, Vec<usize>),
-    /// At its end, as far as rounding can tell.
+    /// The switches leave at the end of the step, as far as rounding can tell.
     AtEnd(Vec<usize>),
 }
 
@@ -66,7 +66,7 @@ pub(super) struct Switches {
 }
 
 impl Switches {
-    /// For `count` switches and states of length `n`.
+    /// Followed branches of `count` switches, and buffers for states of length `n`.
     pub(super) fn new(count: usize, n: usize) -> Self {
         Switches {
             branches: vec![Branch::Followed; count],
@@ -101,7 +101,7 @@ impl Switches {
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
 
-    /// Where a step first leaves its branches between two parts of it, if it does. `time` is that of a part of the step, `coefficients` are
+    /// How a step first leaves its branches between two parts of it, if it does. `time` is that of a part of the step, `coefficients` are
     /// those of its interpolant. Switches that the step goes onto do not count. Where the first part is not the start of the step, it is
     /// there that the branches are taken.
     pub(super) fn search(

@@ -19,7 +19,7 @@ pub(crate) type Terms = &'static [(usize, f64)];
 
 /// A stage but the first: k = f(t + c h, y + h Σ a k).
 pub(crate) struct Stage {
-    /// Its time.
+    /// The time of the stage, as a share of the step.
     pub(crate) c: f64,
     /// The stages it uses. The sums have them as constants, so only the checks read them here.
     #[cfg(test)]
@@ -56,7 +56,7 @@ pub(crate) struct Sums<S> {
 }
 
 impl Tableau {
-    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
+    /// The times between which no stage lies, in the widest such gap, as shares of the step.
     pub(super) fn gap(&self) -> [f64; 2] {
         let times = self.stages.iter().map(|stage| stage.c);
         let mut times: Vec<f64> = times.chain([0.0, 1.0]).collect();

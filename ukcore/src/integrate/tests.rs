@@ -74,7 +74,7 @@ impl Problem for Plain {
         out.copy_from_slice(v_rate);
         Ok(())
     }
-    /// By differences.
+    /// The Jacobian by differences.
     fn jacobian(
         &mut self,
         at: Sample<'_>,

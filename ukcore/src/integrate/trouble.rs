@@ -197,7 +197,7 @@ impl Pace {
         self.slow >= FEW / 10 && self.switches.iter().any(|switch| switch.length)
     }
 
-    /// From where the last step has got to, the next one goes across zeros of these switching functions.
+    /// Takes account of a step that goes from where the last one has got to across zeros of these switching functions.
     ///
     /// # Errors
     /// [`Error::Chattering`] where steps go to and fro across the zero of a length.

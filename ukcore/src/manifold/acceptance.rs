@@ -7,7 +7,7 @@ use crate::scan::{excess, excess_by, largest_by, or_one};
 /// one for q, one or two for the evaluation of φ.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Where no step makes it less, a residual will do if it does not exceed this many ε of the rounding that evaluating it carries, where
+/// A residual that no step makes less will do if it does not exceed this many ε of the rounding that evaluating it carries, where
 /// coordinates are known to rounding of the largest of them: terms that cancel, or constraints that nearly lose rank, can keep it above
 /// [`ROUNDING`]. Lengths of links among coordinates thirty times as large still hold to 1e-12.
 pub(crate) const STALLED: f64 = 64.0 * f64::EPSILON;
@@ -58,7 +58,7 @@ pub(crate) struct Acceptance<L> {
 }
 
 impl<L: Lanes> Acceptance<L> {
-    /// For `m` constraints.
+    /// Buffers for `m` constraints.
     pub(super) fn new(m: usize) -> Self {
         let zero = L::from_f64(0.0);
         Acceptance {
@@ -160,7 +160,7 @@ impl Acceptance<f64> {
             })
     }
 
-    /// Those of the constraints `rows` whose `residuals` would not do even where no step makes them less.
+    /// The constraints among `rows` whose `residuals` would not do even where no step makes them less.
     pub(super) fn violated(
         &self,
         rows: impl Iterator<Item = usize>,

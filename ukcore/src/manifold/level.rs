@@ -13,7 +13,7 @@ pub(crate) enum Level {
 }
 
 impl Level {
-    /// For messages.
+    /// The name of the level in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Level::Position => "position",

@@ -20,12 +20,12 @@ pub(crate) struct Newton<L> {
     pub(crate) acceptance: Acceptance<L>,
 }
 
-/// Where steps come from.
+/// The place that steps are computed from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Steps {
     /// Newton's method: from the place itself.
     Here,
-    /// From another place: they converge linearly, for a place at a distance h as h^k. What is left each time would add up in such a
+    /// Another place, from which steps converge linearly: for one at a distance h as h^k. What is left each time would add up in such a
     /// method, so steps go on for as long as they fall.
     Elsewhere,
 }
@@ -103,8 +103,8 @@ impl<L: Lanes> Newton<L> {
         }
     }
 
-    /// By steps that need no matrix, for all lanes at once, and that tell by their size where they end. `make` makes them, and their
-    /// certificate. Returns the lanes that have arrived, those where steps no longer became smaller, and the number of steps in each.
+    /// Moves `x` by steps that need no matrix, for all lanes at once, and that tell by their size where they end. `make` makes them, and
+    /// their certificate. Returns the lanes that have arrived, those where steps no longer became smaller, and the number of steps in each.
     pub(super) fn direct(
         &mut self,
         at: &At<'_, L>,
@@ -174,7 +174,7 @@ impl<L: Lanes> Newton<L> {
         })
     }
 
-    /// By the emitted elimination.
+    /// Moves `x` by steps of the emitted elimination, and returns what [`direct`](Newton::direct) does.
     pub(super) fn eliminate(&mut self, at: &At<'_, L>, x: &mut [L], wanted: L) -> (L, L, L) {
         self.direct(at, x, wanted, Steps::Here, |newton, x| {
             at.correction(x, &newton.residual, &mut newton.step)

@@ -118,7 +118,7 @@ impl Graph {
         false
     }
 
-    /// For each row the unknowns that depend on its others: the one it is paired with where as many rows as unknowns determine them; else
+    /// The unknowns that depend on the others of each row: the one it is paired with where as many rows as unknowns determine them; else
     /// all that alternate with an unknown, or a row, that has no partner.
     fn heads(&self) -> Vec<Vec<usize>> {
         let loose = reached(&self.row_of, &self.rows, &self.unknown_of);

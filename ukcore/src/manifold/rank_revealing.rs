@@ -233,7 +233,7 @@ impl Manifold {
         Ok(true)
     }
 
-    /// Where residuals and A are known.
+    /// Makes one step of settling where residuals and A are known.
     fn settling_step(
         &mut self,
         at: &At<'_, f64>,

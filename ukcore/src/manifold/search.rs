@@ -25,12 +25,11 @@ const DAMPING_FACTOR: f64 = 10.0;
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
 
-/// In a part of a mechanism rounding is measured, which takes the whole mechanism, where the guess is, and where the sum of squares has
-/// fallen to this share.
+/// The share of its sum of squares at the guess at which rounding is measured again in a part of a mechanism: that takes the whole
+/// mechanism.
 const CLOSE: f64 = 1e-16;
 
-/// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
-/// rest.
+/// A search that ends as near to the constraints as this share of lengths, √ε, has found the place, and Newton's method does the rest.
 const NEAR: f64 = 1.5e-8;
 
 /// Searches for a solution that keeps what is told.
@@ -39,7 +38,7 @@ const TIMES: usize = 2;
 /// What follows from other rows has this share of a singular value at most, at a place that is as near as [`NEAR`].
 const FLAT: f64 = 1e-6;
 
-/// In a constraint with lengths the rounding of so many terms adds up.
+/// The rounding of so many terms adds up in a constraint with lengths.
 const TERMS: f64 = 16.0;
 
 /// No step turns an angle by more than this: beyond, it leads no nearer, but to angles so large that their rounding would explain any
@@ -179,7 +178,7 @@ impl Manifold {
         (0..guess.len()).map(extent).collect()
     }
 
-    /// From here on coordinates move as readily as each other, those of different units as these say.
+    /// Makes coordinates move as readily as each other from here on, those of different units as these say.
     pub(crate) fn even(&mut self) {
         let ease = self.ease().iter().enumerate();
         let readily = ease.map(|(j, ease)| (ease / self.unit(j)).ln());

@@ -8,11 +8,11 @@ const SAME_TIME: f64 = 4.0 * f64::EPSILON;
 /// When samples are taken.
 #[derive(Debug, Clone)]
 pub(super) enum Sampling {
-    /// At each accepted step.
+    /// Samples are taken at each accepted step.
     Steps,
-    /// At multiples of that time after the start, and at the end.
+    /// Samples are taken at multiples of that time after the start, and at the end.
     Every(f64),
-    /// At these times only.
+    /// Samples are taken at these times only.
     At(Vec<f64>),
 }
 

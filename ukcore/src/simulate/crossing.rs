@@ -28,7 +28,7 @@ const TRIES: usize = 4;
 
 /// What rows have beside each other at, or just before, a singular position is so many times less than it was before.
 const LESS: f64 = 2.0;
-/// They tell where it is if they are no less than this.
+/// What rows have beside each other tells where the position is if it is no less than this.
 const TOLD: f64 = 1e-7;
 /// A position that a motion is behind by no more than this share of its way there is where it is.
 const HARDLY: f64 = 1e-3;

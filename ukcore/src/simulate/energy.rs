@@ -17,7 +17,7 @@ pub(super) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// For steps of size `step`, from the energy `first`.
+    /// A watch over steps of size `step`, from the energy `first`.
     pub(super) fn new(step: f64, first: Energy) -> Self {
         let mut drift = EnergyDrift::default();
         drift.add(first);

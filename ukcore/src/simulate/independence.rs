@@ -49,7 +49,7 @@ struct Column {
 }
 
 impl Independence {
-    /// For those among some `rows` of A (column-major) that others do not imply at a state; `None` if there are fewer than two.
+    /// The rows among some `rows` of A (column-major) that others do not imply at a state; `None` if there are fewer than two.
     pub(super) fn new(mech: &Prepared, jacobian: &[f64], rows: Vec<bool>) -> Option<Self> {
         let m = mech.spec().m();
         let mut all = Independence {

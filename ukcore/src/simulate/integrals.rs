@@ -79,7 +79,7 @@ struct Sum {
 }
 
 impl Integrals {
-    /// Those of `mechanism`, zero where a run over the time `span` starts; `None` where it has none.
+    /// The integrals of `mechanism`, zero where a run over the time `span` starts; `None` where it has none.
     pub(super) fn new(
         mechanism: &Prepared,
         [relative, floor]: [f64; 2],
@@ -176,7 +176,7 @@ impl Integrals {
         Ok(&self.values)
     }
 
-    /// Both rules from `a` to `b`.
+    /// Integrates from `a` to `b` by both rules.
     fn rule(&mut self, states: &mut Along<'_>, a: f64, b: f64) -> Result<Vec<Part>, Error> {
         let (centre, half) = (0.5 * (a + b), 0.5 * (b - a));
         // By the rule of 7 and that of 4; of the magnitude, and of the change by an error of the motion, by that of 7.

@@ -72,7 +72,7 @@ impl Sums {
 }
 
 impl Leaves {
-    /// For A (column-major) where the run begins.
+    /// The rows of a mechanism by their entries, for A (column-major) where the run begins.
     pub(super) fn new(mech: &Prepared, jacobian: &[f64]) -> Self {
         let (n, m) = (mech.spec().n(), mech.spec().m());
         let mut columns: Vec<Vec<usize>> = vec![Vec::new(); m];
@@ -139,7 +139,7 @@ impl Leaves {
         self.compare([a; 3], 0.0, squares, &mut vec![0.0; self.rows.len()]);
     }
 
-    /// By how much each row changes from one state to another, squared, and the product of what it is at both, for A at these.
+    /// The change of each row from one state to another, squared, and the product of what it is at both, for A at these.
     pub(super) fn changes(&self, a: [&[f64]; 2]) -> Vec<[f64; 2]> {
         let mut changes = vec![[0.0; 2]; self.rows.len()];
         self.each([a[0], a[0], a[1]], 0.0, |row, _, all| {

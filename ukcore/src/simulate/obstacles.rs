@@ -183,7 +183,7 @@ pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
     (!constraints.is_empty()).then_some(Error::Singular { constraints })
 }
 
-/// Where a motion from `old` meets the place where A loses a row; `None` where that is of no concern.
+/// The place where a motion from `old` meets the one where A loses a row; `None` where that is of no concern.
 pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
     match found {
         Loss::Rows(rows) => {

@@ -18,7 +18,7 @@ pub(super) type Sink<'a> = &'a mut dyn FnMut(Record<'_>) -> ControlFlow<()>;
 /// Takes from accepted steps what is to be kept or handed over.
 pub(super) struct Recorder<'s> {
     pub(super) trajectory: Trajectory,
-    /// For steps, and samples and events within them.
+    /// Projects steps, and samples and events within them.
     pub(super) projector: Projector,
     pub(super) agenda: Agenda,
     watch: Watch,
@@ -29,12 +29,12 @@ pub(super) struct Recorder<'s> {
     sampled: Option<f64>,
     /// A state within a step.
     between: Vec<f64>,
-    /// If there is anything to integrate.
+    /// What is integrated along the run, if there is anything.
     pub(super) integrals: Option<Integrals>,
 }
 
 impl<'s> Recorder<'s> {
-    /// For a run from where `trajectory` stands.
+    /// A recorder for a run from where `trajectory` stands.
     pub(super) fn new(
         trajectory: Trajectory,
         projector: Projector,

@@ -25,18 +25,18 @@ pub(super) struct Run<'s> {
     pub(super) solver: Solver,
     /// Whether steps are to go onto the zeros of switching functions.
     pub(super) located: bool,
-    /// For the derivatives of these, if there are some.
+    /// The mechanism for the derivatives of switching functions, if there are some.
     pub(super) sloped: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
-    /// For a method with a fixed step.
+    /// Watches the energy where a method has a fixed step.
     pub(super) energy: Option<EnergyWatch>,
     pub(super) recorder: Recorder<'s>,
     pub(super) progress: Option<Progress>,
     pub(super) t_end: f64,
     /// The least significance of a row in the step in hand.
     pub(super) weakest: f64,
-    /// Where it was found.
+    /// The state at which that row was found.
     pub(super) nearest: Option<State>,
     pub(super) rows: RowWatch,
 }

@@ -140,7 +140,7 @@ fn state(t: f64, angle: f64, rate: f64) -> State {
     }
 }
 
-/// From rest at `angle`.
+/// A run of the pendulum from rest at `angle`.
 fn swing(angle: f64, tolerance: f64) -> Simulation {
     let start = state(0.0, angle, 0.0);
     Simulation::new(Pendulum::default())

@@ -83,7 +83,7 @@ pub(super) enum Loss {
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
     pub(super) row: usize,
-    /// Its greatest length so far, measured by this scale.
+    /// The row's greatest length so far, measured by this scale.
     pub(super) size: f64,
     pub(super) scale: Vec<f64>,
     /// When it was that.
@@ -95,9 +95,9 @@ pub(super) struct Vanishing {
     pub(super) least: f64,
     /// The least share of its size that it has at a state of the run.
     pub(super) reached: f64,
-    /// The motion comes to rest there.
+    /// Whether the motion comes to rest there.
     pub(super) rest: bool,
-    /// As many rows as counted where the run began.
+    /// The number of rows that counted where the run began.
     pub(super) rank: usize,
 }
 
@@ -132,8 +132,8 @@ pub(super) struct RowWatch {
     compared: Compared,
     /// Whether combinations of rows are looked at, too.
     together: bool,
-    /// Of rows beside each other: those without entries of their own, and all of them, for where such entries are reversed. `None` within
-    /// where there are not several.
+    /// Watches over rows beside each other: those without entries of their own, and all of them, for where such entries are reversed.
+    /// `None` within where there are not several.
     independence: [Option<Option<Independence>>; 2],
     /// Which of the two was asked last.
     asked: Option<usize>,
@@ -141,15 +141,15 @@ pub(super) struct RowWatch {
     share: f64,
     /// The least such share at the last state alone that was looked at, for each of the two in `independence`.
     left: [f64; 2],
-    /// By how much of itself a row has changed on the way along the step in hand, where that was looked at; else 0.
+    /// The share of itself by which a row has changed on the way along the step in hand, where that was looked at; else 0.
     turns: f64,
     /// When to look again.
     pub(super) due: f64,
 }
 
 impl RowWatch {
-    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to
-    /// imply each other, combinations of rows are not looked at.
+    /// A watch for a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come
+    /// to imply each other, combinations of rows are not looked at.
     pub(super) fn new(method: Method, tolerance: f64) -> Self {
         RowWatch {
             together: method != Method::Dop853 || tolerance >= CLOSE,
@@ -466,13 +466,13 @@ impl RowWatch {
         }
     }
 
-    /// As many rows as counted where the run began.
+    /// The number of rows that counted where the run began.
     fn rank(&self) -> usize {
         counting(&self.first, self.sizes.len(), INDEPENDENT)
     }
 
-    /// As many rows as count anywhere, by what the run has seen: where it began, in a singular position perhaps, and beyond doubt at both
-    /// ends of the step in hand.
+    /// The number of rows that count anywhere, by what the run has seen: where it began, in a singular position perhaps, and beyond doubt
+    /// at both ends of the step in hand.
     fn most(&self) -> usize {
         let ends = [&self.seen, &self.here];
         let ranks = ends.map(|end| counting(&end.entries, self.sizes.len(), RANK_CEILING));
@@ -529,7 +529,7 @@ impl RowWatch {
         (0..self.products.len()).filter(|c| self.products[*c] < 0.0 && self.may[*c])
     }
 
-    /// Where row `c`, reversed on the way from `old` to `new`, goes through zero, if it does not only turn.
+    /// How row `c`, reversed on the way from `old` to `new`, goes through zero, if it does not only turn.
     fn least(
         &self,
         mech: &Prepared,

@@ -51,8 +51,7 @@ impl Driver<'_> {
         }
     }
 
-    /// Where the run stands at a singular position, or just before one, goes back to where its motion has come from. Returns whether it
-    /// did.
+    /// Goes back to where the motion has come from, if the run stands at a singular position or just before one. Returns whether it did.
     pub(super) fn launch(&mut self) -> Result<bool, Error> {
         if self.gap.is_none() || self.shown.is_some() {
             return Ok(false);
@@ -141,8 +140,8 @@ impl Driver<'_> {
         None
     }
 
-    /// Where a motion from `y` goes between these times, the second one next to a singular position, more exactly than the run. Switches
-    /// stay as they are.
+    /// The state to which a motion from `y` goes between these times, the second one next to a singular position, more exactly than the
+    /// run. Switches stay as they are.
     pub(super) fn go_over(
         &mut self,
         position: &Singular,

@@ -36,11 +36,11 @@ pub(super) const LOST: f64 = 1e-6;
 /// What rounding of a state makes of velocities in a unit of time.
 #[derive(Default)]
 pub(super) struct Noise {
-    /// In the error norm.
+    /// The size of it in the error norm.
     pub(super) own: f64,
     /// The largest of it in any component, over what that is allowed at rest; and which one.
     most: f64,
-    /// Both of these of the part of the mechanism that each coordinate belongs to.
+    /// Both of these numbers for the part of the mechanism that each coordinate belongs to.
     grants: Vec<[f64; 2]>,
     worst: usize,
     /// Rounding of the time, where most of that is of it.

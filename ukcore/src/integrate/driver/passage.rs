@@ -25,7 +25,7 @@ const BEHIND: f64 = 0.2;
 /// size.
 const BOLD: f64 = 16.0;
 
-/// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for in a passage.
+/// Velocities at a significance δ are known to some ε/δ²: no less than so many times that is asked for in a passage.
 const NOISE: f64 = 256.0 * f64::EPSILON;
 
 /// The least that is asked for where the motion turns, and most of the error is across it.
@@ -34,7 +34,7 @@ const TURNING: f64 = 0.25 * f64::EPSILON;
 /// The largest tolerance that this may lead to: the one where nothing is said.
 pub(super) const COARSEST: f64 = 1e-9;
 
-/// Where a shorter step over a position comes out no better than a longer one, so many times the coarsest tolerance may be granted, or as
+/// So many times the coarsest tolerance may be granted where a shorter step over a position comes out no better than a longer one, or as
 /// much as rounding of coordinates makes it: so much more than what it came out with.
 pub(super) const FAINTEST: f64 = 8.0;
 const AGAIN: f64 = 1.5;
@@ -43,7 +43,7 @@ const AGAIN: f64 = 1.5;
 /// much less of it as the square of that.
 const FARTHER_OFF: std::ops::Range<f64> = 2.0..16.0;
 
-/// At a significance δ velocities may be known to no more than so many times the rounding of coordinates over δ².
+/// Velocities at a significance δ may be known to no more than so many times the rounding of coordinates over δ².
 const KNOWN: f64 = 16.0 * f64::EPSILON;
 
 /// Tolerance of what is made in place of steps of one size.
@@ -52,7 +52,7 @@ const DETOUR: f64 = 1e-10;
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
 
-/// After a near miss, significances fall by no more than this in a step, so that a stage comes near the next one.
+/// Significances fall by no more than this in a step after a near miss, so that a stage comes near the next one.
 const SEEN: f64 = 0.2;
 
 /// A stage tells nothing of a significance that is so many times less where the run stands than it would be by that of the stage.
@@ -74,7 +74,7 @@ const BEYOND: usize = 8;
 /// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
 const ONE: f64 = 1e-3;
 
-/// Of the way to a position at least this share is gone at once.
+/// The least share of the way to a position that is gone at once.
 const LEAST: f64 = 0.1;
 
 /// Steps over a position that are less than this share of what they might be are to begin before.
@@ -91,7 +91,7 @@ pub(super) struct Passage {
     /// The step in hand, where it goes over it to behind the end of the run; whether none may.
     pub(super) beyond: Option<Trial>,
     pub(super) bounded: bool,
-    /// It has not been tried yet to pass it.
+    /// Whether it has not been tried yet to pass the position ahead.
     untried: bool,
     /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so no more than this is asked
     /// for.
@@ -101,7 +101,7 @@ pub(super) struct Passage {
     /// How many times as far before the position the next one is to begin; and up to what time none is to do so again.
     farther: Option<f64>,
     receded: Option<f64>,
-    /// Where the run has gone back from, until it is there again; whether it has done so where it stands, and come elsewhere.
+    /// The place from which the run has gone back, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
     /// How often the step in hand has been planned anew.
@@ -113,7 +113,7 @@ pub(super) struct Passage {
     pub(super) before: Before,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
-    /// Its relative tolerance, and how many times that of the run the floors of velocities are.
+    /// The relative tolerance of the step in hand, and how many times that of the run the floors of velocities are.
     eased: [f64; 2],
 }
 
@@ -280,8 +280,8 @@ impl Driver<'_> {
         passage.distance = left - course.h.abs();
     }
 
-    /// Where steps are of one size, those near a singular position are made by another method, so exactly that they are as good as the
-    /// motion itself.
+    /// Makes steps near a singular position by another method where steps are of one size, so exactly that they are as good as the motion
+    /// itself.
     pub(super) fn detour(&mut self) -> Result<Option<Outcome>, Error> {
         if self.gap.is_some() {
             return Ok(None);

@@ -83,7 +83,7 @@ const PATIENCE: usize = 5;
 /// Which Jacobians the iterations use.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Matrices {
-    /// That at the start of the step, or an older one, for all stages: two matrices n × n, kept over steps.
+    /// The Jacobian at the start of the step, or an older one, for all stages: two matrices n × n, kept over steps.
     Start,
     /// One at each stage: a matrix 3n × 3n, for this step alone. Where stiff directions turn with the motion, as a spring does, this takes
     /// far longer steps.
@@ -108,9 +108,9 @@ const LEFT: f64 = 0.03;
 
 /// How the iterations ended.
 pub(super) enum Solved {
-    /// They converged.
+    /// The iterations converged.
     Yes,
-    /// They did not, and the step should be that many times as long.
+    /// The iterations did not converge, and the step should be that many times as long.
     No { shorten: f64 },
 }
 
@@ -188,7 +188,7 @@ pub(super) struct Newton {
 }
 
 impl Newton {
-    /// For n coordinates.
+    /// Buffers for n coordinates.
     pub(super) fn new(n: usize) -> Self {
         let zeros = |rows: usize| vec![0.0; rows * n];
         Newton {
@@ -270,7 +270,7 @@ impl Newton {
         Ok(())
     }
 
-    /// From starting values w to the stages of `step` from `y`. `tolerance` is that of `weights`.
+    /// Iterates from starting values w to the stages of `step` from `y`. `tolerance` is that of `weights`.
     pub(super) fn solve(
         &mut self,
         matrices: Matrices,
@@ -398,7 +398,7 @@ impl Newton {
         Ok(converges || size <= self.rounding(step.h, y, weights))
     }
 
-    /// Where the iterations will not get from `error` to below 1: what the step is to be multiplied by.
+    /// The factor to multiply the step by, where the iterations will not get from `error` to below 1.
     fn hopeless(&self, error: f64) -> Option<f64> {
         if error.is_infinite() {
             return Some(0.5);

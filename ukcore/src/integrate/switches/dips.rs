@@ -12,10 +12,10 @@ use crate::zero::below;
 /// Part of a step over which the rates of functions are taken at its ends.
 const END: f64 = 1.0 / 64.0;
 
-/// Where functions are looked at within a step, to have their rates at its ends.
+/// Parts of a step at which functions are looked at, to have their rates at its ends.
 const ENDS: [f64; 4] = [0.0, END, 1.0 - END, 1.0];
 
-/// Where they are along a step without forces: at so many parts of it, and as near to its ends as that.
+/// A step without forces is looked at in so many parts, and as near to its ends as that.
 const LOOKS: usize = 32;
 const NEAR: f64 = 1e-3;
 const ALONG: [f64; LOOKS + 3] = {
@@ -48,13 +48,13 @@ pub(super) struct Buffers {
     values: Vec<f64>,
     /// Values of all functions, place after place.
     looks: Vec<f64>,
-    /// Those at the end of the last step that was looked at, and its time.
+    /// The values of all functions at the end of the last step that was looked at, and its time.
     known: Vec<f64>,
     known_at: f64,
 }
 
 impl Buffers {
-    /// For `count` functions of states of length `n`.
+    /// Buffers for `count` functions of states of length `n`.
     pub(super) fn new(count: usize, n: usize) -> Self {
         Buffers {
             state: vec![0.0; n],
@@ -69,11 +69,11 @@ impl Buffers {
 /// What is seen of functions within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::integrate) enum Seen {
-    /// They stay in their branches.
+    /// The functions stay in their branches.
     Whole,
     /// There are places where they may be outside.
     Dips,
-    /// They change too often to tell.
+    /// The functions change too often to tell.
     Rough,
 }
 

@@ -7,7 +7,7 @@ use crate::mechanism::Branch;
 pub(in crate::integrate) struct Stuck(pub(in crate::integrate) Vec<usize>);
 
 impl Equations<'_> {
-    /// From now on y' is that of `branch` of switch k, whatever the sign of its function.
+    /// Makes y' that of `branch` of switch k from here on, whatever the sign of its function.
     fn set(&mut self, k: usize, branch: Branch) {
         self.switches.branches[k] = branch;
         self.problem.set_branch(k, branch);
@@ -115,7 +115,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Those of `switches` whose functions leave the branches they are in.
+    /// The switches among these whose functions leave the branches they are in.
     fn driven_out(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         let along = self.course.along;
         self.moving(switches, y, |branch, rate| {
@@ -141,12 +141,12 @@ impl Equations<'_> {
         (0..values.len()).filter(across).collect()
     }
 
-    /// Those of `switches` whose functions stay as they are.
+    /// The switches among these whose functions stay as they are.
     fn at_rest(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         self.moving(switches, y, |_, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
+    /// The switches among these for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
     /// value.
     fn moving(
         &mut self,

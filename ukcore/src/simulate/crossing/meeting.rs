@@ -32,7 +32,7 @@ pub(super) struct Meeting<'s, 'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Of what `row` says that is lost at `t`; the equations are factored at `near`, before it.
+    /// The meeting with what `row` says that is lost at `t`; the equations are factored at `near`, before it.
     pub(super) fn meeting<'s>(
         &'s mut self,
         near: &'s State,

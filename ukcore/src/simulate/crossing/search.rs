@@ -37,7 +37,7 @@ pub(super) struct Search<'a> {
     noise: Noise,
     pub(super) dense: Dense,
     pub(super) terms: Evaluated,
-    /// As many rows as count.
+    /// The number of rows that count.
     pub(super) rank: usize,
     /// Length of the first step, in time as the directions are.
     reach: f64,

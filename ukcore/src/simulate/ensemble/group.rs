@@ -16,7 +16,7 @@ use crate::scalar::Scalar;
 use crate::scan::reduce;
 use crate::solver::RANK_CEILING;
 
-/// As many members as there are lanes, at most.
+/// A group of members that run side by side, at most as many as there are lanes.
 pub(super) struct Group<'a> {
     ensemble: &'a Ensemble,
     t_end: f64,
@@ -100,7 +100,7 @@ fn choose(which: Which) -> impl Fn(Wide, Wide) -> Wide {
 }
 
 impl<'a> Group<'a> {
-    /// For members of the type of `mechanism`.
+    /// A group of members of the type of `mechanism`.
     pub(super) fn new(
         ensemble: &'a Ensemble,
         mechanism: &Prepared,

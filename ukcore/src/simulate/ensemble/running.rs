@@ -15,7 +15,7 @@ use crate::solver::SolverWork;
 /// A member under way.
 pub(super) struct Running {
     pub(super) index: usize,
-    /// Where it began.
+    /// The state where the member began.
     start: State,
     pub(super) course: Course,
     pub(super) size: StepSize,

@@ -183,7 +183,7 @@ fn massless_and_prescribed_coordinates_follow_closed_forms() {
     }
 }
 
-/// From (q, v) at t = 0, projected.
+/// A run of `mechanism` from (q, v) at t = 0, projected.
 fn toy<M: Mechanism>(mechanism: M, q: &[f64], v: &[f64]) -> Simulation {
     let (t, q, v) = (0.0, q.to_vec(), v.to_vec());
     Simulation::new(&mechanism)

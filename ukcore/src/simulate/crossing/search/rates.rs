@@ -22,9 +22,9 @@ const DIRECTIONS: usize = 6;
 
 /// What rows that all but depend on each other leave beside the others.
 struct Left {
-    /// By directions that these allow.
+    /// The amount by directions that the other rows allow.
     now: Vec<f64>,
-    /// Its change along the motion, in a unit of time.
+    /// The change of the amount along the motion, in a unit of time.
     slope: Vec<f64>,
     /// What rounding of coordinates and time makes of it.
     known: f64,
@@ -33,7 +33,7 @@ struct Left {
 }
 
 impl Search<'_> {
-    /// Where a motion with velocity `u` comes nearest to the place where c vanishes, which is of as many rows as `count`. `None` where it
+    /// The place where a motion with velocity `u` comes nearest to where c vanishes, which is of as many rows as `count`. `None` where it
     /// is of constraints on positions alone, or may be of some beside others.
     pub(super) fn rates(&mut self, u: &[f64], count: usize) -> Option<Option<Singular>> {
         let spec = self.mech.spec();
