@@ -86,7 +86,7 @@ pub(super) struct Vanishing {
     /// The row's greatest length so far, measured by this scale.
     pub(super) size: f64,
     pub(super) scale: Vec<f64>,
-    /// When it was that.
+    /// When the row had that length.
     pub(super) largest: f64,
     /// A state of the motion near the place.
     pub(super) near: State,

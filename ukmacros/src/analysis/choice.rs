@@ -49,7 +49,8 @@ impl Variant {
         }
     }
 
-    /// Its elimination, for a mechanism with `own` coordinates and constraints; with the multipliers of the equations given, if there are.
+    /// The elimination of the variant, for a mechanism with `own` coordinates and constraints; with the multipliers of the equations given,
+    /// if there are.
     pub(super) fn task<'a>(
         &'a self,
         regular: &'a Regular,
@@ -82,7 +83,7 @@ struct Tried {
     work: usize,
     straight: Result<Straight, String>,
     hoisted: Hoisted,
-    /// Its system among the variants.
+    /// The place of the system among the variants.
     at: usize,
     nodes: Nodes,
 }

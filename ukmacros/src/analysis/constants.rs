@@ -10,7 +10,7 @@ use ukunits::Unit;
 /// Constants of `ukcore::Mechanism`.
 pub(crate) const ASSOCIATED: [&str; 3] = ["SPEC", "CODE", "INTEGRALS"];
 
-/// In upper case, but for a θ: both cases of it in one crate are reported as look-alikes.
+/// The text in upper case, but for a θ: both cases of it in one crate are reported as look-alikes.
 fn upper(text: &str) -> String {
     let upper = |c: char| match c {
         'θ' => c.to_string(),
@@ -166,7 +166,7 @@ fn nested(shape: &[usize], members: &[usize]) -> Positions {
 /// Positions of constraints or outputs by base, in order of appearance. Left out are families that no array can stand for: those
 /// whose indices are not 0, 1, 2, … or whose vectors differ in length.
 fn grouped<'a>(items: impl Iterator<Item = &'a ConstraintRef>) -> Vec<(&'a Ident, Positions)> {
-    /// Of a family: indices of each member, those of components included, and its position.
+    /// The members of a family: indices of each, those of components included, and its position.
     type Members = Vec<(Vec<i64>, usize)>;
     let mut families: Vec<(&Ident, Members)> = Vec::new();
     let mut places: HashMap<&Ident, usize> = HashMap::new();

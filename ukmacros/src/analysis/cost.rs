@@ -50,9 +50,9 @@ impl Operations {
 /// Operations of one call of each function, and of what they replace.
 pub(crate) struct Costs {
     pub(crate) dynamics: Operations,
-    /// Of a dense LDLᵀ of [M Aᵀ; A 0] after that.
+    /// The operations of a dense LDLᵀ of [M Aᵀ; A 0] after that.
     pub(crate) dense: Operations,
-    /// Of the straight line with nothing hoisted.
+    /// The operations of the straight line with nothing hoisted.
     pub(crate) unprepared: Operations,
     pub(crate) acceleration: Operations,
     pub(crate) correction: Operations,

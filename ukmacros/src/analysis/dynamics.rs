@@ -202,7 +202,7 @@ fn slopes(potential: Id, n: usize, g: &mut Graph) -> Vec<Id> {
 /// M and Q.
 type Equations = (BTreeMap<(usize, usize), Id>, Vec<Id>);
 
-/// That form of M and Q which costs less; the second where both cost the same.
+/// The form of M and Q that costs less; the second where both cost the same.
 fn cheaper(one: Option<Equations>, other: Option<Equations>, g: &Graph) -> Equations {
     let work = |(mass, force): &Equations| {
         let all: Vec<Id> = mass.values().chain(force).copied().collect();

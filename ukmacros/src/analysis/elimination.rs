@@ -48,9 +48,9 @@ use std::collections::BTreeSet;
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
 #[derive(Clone)]
 pub(crate) struct Divisor {
-    /// Of the coordinate or constraint.
+    /// The name of the coordinate or constraint.
     name: String,
-    /// Its position: coordinates first, then constraints.
+    /// The position of the pivot: coordinates first, then constraints.
     position: usize,
     value: Id,
     reference: Id,
@@ -89,7 +89,7 @@ pub(crate) struct Elimination {
     correction_rights: Vec<Id>,
     /// What is checked of the rows that may be left out.
     droppings: Vec<Dropping>,
-    /// Of each constraint, where rows may be left out and multipliers are wanted: its share of what those left out follow from, squared.
+    /// The share of each constraint in what the rows left out follow from, squared, where rows may be left out and multipliers are wanted.
     shares: Vec<Option<Id>>,
     order: Order,
     /// Whether there are no constraints, but for definitions that are substituted.
@@ -98,7 +98,7 @@ pub(crate) struct Elimination {
     solved: bool,
     /// Inertias that do not vary, where multipliers are solved for.
     inertias: Vec<Id>,
-    /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
+    /// The place in the mechanism of each coordinate and constraint of the system; `None` for velocities and their definitions.
     place: Vec<Option<usize>>,
     /// Names of pivots, factors and multipliers.
     hints: Vec<(Id, String)>,
@@ -135,7 +135,7 @@ impl Pair {
 /// An entry of A, or of what is left of it, that is the same at all states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coefficient {
-    /// Its value; with the default parameters, if it is no number.
+    /// The value of the coefficient; with the default parameters, if it is no number.
     pub(crate) value: f64,
     /// Whether it is a number: else it depends on parameters.
     pub(crate) number: bool,
@@ -164,10 +164,10 @@ impl Coefficient {
 pub(crate) struct Task<'a> {
     /// The equations.
     pub(crate) dynamics: &'a Dynamics,
-    /// To M were added Σ μ aᵀa of rows a of A, to Q the Σ μ aᵀb: these are the (row, coordinate, μ a_i), by which a correction has the like
-    /// of its residuals.
+    /// The (row, coordinate, μ a_i) of rows a of A, where Σ μ aᵀa was added to M and Σ μ aᵀb to Q: by these a correction has the like of
+    /// its residuals.
     pub(crate) weights: &'a [(usize, usize, Id)],
-    /// Of coordinates and constraints.
+    /// The names of coordinates and constraints.
     pub(crate) names: &'a [String],
     /// How many of the coordinates and of the constraints are the mechanism's.
     pub(crate) own: (usize, usize),
@@ -390,7 +390,7 @@ fn lasting_inertias(d: &Dynamics, g: &Graph) -> Vec<Id> {
     lasting.into_iter().collect()
 }
 
-/// Where each coordinate and constraint of `d` stands among those of the mechanism.
+/// The place of each coordinate and constraint of `d` among those of the mechanism.
 fn place(d: &Dynamics, (n, m): (usize, usize)) -> Vec<Option<usize>> {
     let coordinates = (0..d.force.len()).map(|i| (i < n).then_some(i));
     let constraints = (0..d.rhs.len()).map(|row| (row < m).then_some(n + row));

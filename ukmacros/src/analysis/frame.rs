@@ -27,7 +27,7 @@ const RIGHT: f64 = 1e-13;
 
 /// Coordinates e with their R.
 pub(crate) struct Frame {
-    /// In ascending order; the constraint gives what stands for the first, definitions what stands for the others.
+    /// The coordinates in ascending order; the constraint gives what stands for the first, definitions what stands for the others.
     pub(super) coordinates: Vec<usize>,
     /// The constraint.
     pub(super) row: usize,
@@ -48,7 +48,7 @@ pub(crate) struct Frame {
 /// A row of another constraint.
 struct Row {
     at: usize,
-    /// Its function, if it is the derivative of one.
+    /// The function of the row, if it is the derivative of one.
     phi: Option<Id>,
     /// What it has of the coordinates.
     entries: Vec<Id>,

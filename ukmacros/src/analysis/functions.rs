@@ -45,7 +45,7 @@ pub(crate) enum Slice {
     Out,
 }
 
-/// Where a value goes.
+/// The place that a value goes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// An element of a slice; matrices are column-major.
@@ -136,7 +136,7 @@ pub(crate) fn of_parameters(system: &System, roots: &[Id]) -> Function {
     )
 }
 
-/// With what products have in common computed once; what a solve has for stages comes first where it is `straight`.
+/// Makes a function with what products have in common computed once; what a solve has for stages comes first where it is `straight`.
 fn function(
     role: Role,
     written: &[Written],
@@ -194,7 +194,7 @@ fn solution(values: &[Id], safe: Id) -> [Written; 2] {
     [elements(Slice::Out, values), (None, certificate)]
 }
 
-/// Both triangles of M, column by column.
+/// Writes both triangles of M, column by column.
 fn mass(d: &Dynamics) -> Written {
     let n = d.force.len();
     let mut entries: Vec<(usize, Id)> = Vec::new();

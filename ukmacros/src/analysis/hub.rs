@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// What fewer constraints act on is no hub.
 const CONSTRAINTS: usize = 6;
-/// Of fewer parts a hub is left as it is.
+/// A hub of fewer parts is left as it is.
 const PARTS: usize = 3;
 
 /// Equations with the copies of hubs as further coordinates, and the ties as further constraints.

@@ -132,7 +132,7 @@ fn without(w: &[Vec<Id>], r: usize, k: usize) -> Vec<Vec<Id>> {
     rows.map(|(_, of)| row(of)).collect()
 }
 
-/// By cofactors of the first row: W has three rows at most.
+/// The determinant of W by cofactors of the first row: W has three rows at most.
 fn determinant(w: &[Vec<Id>], g: &mut Graph) -> Id {
     let Some(first) = w.first() else {
         return g.one();
@@ -224,7 +224,7 @@ fn outwards(
 /// Rows between two frames, or one and what does not move.
 struct Rows<'a> {
     rows: &'a [usize],
-    /// They are to be solved for rates of the second.
+    /// The frames between which the rows are: they are to be solved for rates of the second.
     frames: [&'a Frame; 2],
 }
 

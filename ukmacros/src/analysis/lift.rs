@@ -30,7 +30,7 @@ enum Unknown {
 /// The kinetic energy T = ½ Σ D_ab u_a u_b in unknowns u, and the equations of motion in them.
 #[derive(Clone)]
 pub(crate) struct Lift {
-    /// Of each y, what it is the sum of: y_l = Σ c_lk u_k.
+    /// What each y is the sum of: y_l = Σ c_lk u_k.
     definitions: BTreeMap<Id, BTreeMap<Unknown, Id>>,
     /// Lower triangle of D, as far as it is not zero: (later, earlier).
     inertia: BTreeMap<(Unknown, Unknown), Id>,
@@ -132,7 +132,7 @@ fn degrees(root: Id, g: &Graph) -> HashMap<Id, u32> {
     degrees
 }
 
-/// Those factors that contain velocities, and the product of the others with `weight`.
+/// The factors that contain velocities, and the product of the others with `weight`.
 fn moving(factors: Vec<(Id, i32)>, weight: Id, g: &mut Graph) -> (Vec<(Id, i32)>, Id) {
     let moves = |(f, _): &(Id, i32)| g.uses(*f).velocity;
     let (moving, mut rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(moves);
@@ -208,7 +208,7 @@ impl Lift {
         self.definitions.keys().copied()
     }
 
-    /// Of each y in that order what it is the sum of, if that is coordinates alone.
+    /// What each y is the sum of, in that order, if that is coordinates alone.
     pub(super) fn of_coordinates(&self) -> Vec<Option<BTreeMap<usize, Id>>> {
         let entry = |(of, c): (&Unknown, &Id)| match of {
             Unknown::Coordinate(i) => Some((*i, *c)),

@@ -66,7 +66,7 @@ pub(crate) struct Analysis {
     pub(crate) costs: Costs,
     /// Why reactions that are used cannot be solved for.
     pub(crate) unsolved: Option<String>,
-    /// In debug builds, a value that hoisting changed: a defect of this compiler.
+    /// A value that hoisting changed, looked for in debug builds: a defect of this compiler.
     pub(crate) defect: Option<usize>,
 }
 

@@ -37,7 +37,7 @@ impl<'a> Probe<'a> {
         self.with(&[])
     }
 
-    /// With values of what is prepared.
+    /// The point of this state, with values of what is prepared.
     pub(crate) fn with<'b>(&'b self, prepared: &'b [f64]) -> Point<'b> {
         Point {
             params: self.params,
@@ -94,7 +94,7 @@ impl Random {
         Random(seed)
     }
 
-    /// In (0.2, 1.2): inside the domain of most functions.
+    /// A number in (0.2, 1.2): inside the domain of most functions.
     pub(crate) fn positive(&mut self) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "only 53 bits are taken")]
         let unit = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;

@@ -36,7 +36,7 @@ const WORK: usize = 600_000;
 /// Constraints that imply each other.
 #[derive(Clone, Default)]
 pub(crate) struct Redundant {
-    /// Those that follow from others, with these others: which of them is the one too many may change along a motion.
+    /// The constraints that follow from others, with these others: which of them is the one too many may change along a motion.
     pub(crate) rows: BTreeSet<usize>,
     /// How many of them follow from the others wherever it was looked.
     pub(crate) excess: usize,
@@ -75,7 +75,7 @@ pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> Redundant 
 pub(super) struct Level {
     sweep: Sweep,
     rows: usize,
-    /// Where the entries of A are, in the order of the sweep behind the residuals.
+    /// The places of the entries of A, in the order of the sweep behind the residuals.
     entries: Vec<(usize, usize)>,
 }
 

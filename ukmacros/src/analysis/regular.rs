@@ -35,7 +35,7 @@ const LARGE: usize = 48;
 /// Equations for the elimination.
 #[derive(Clone)]
 pub(crate) struct Regular {
-    /// With M and Q of the blocks that are made regular.
+    /// The equations with M and Q of the blocks that are made regular.
     pub(crate) dynamics: Dynamics,
     /// What was added to M.
     pub(crate) added: BTreeMap<(usize, usize), Id>,
@@ -138,7 +138,7 @@ impl Regular {
 
 /// Coordinates that share inertia.
 struct Block {
-    /// In ascending order.
+    /// The coordinates in ascending order.
     coordinates: Vec<usize>,
     /// Whether their part of M is the same at all states.
     constant: bool,
@@ -187,7 +187,7 @@ struct States<'a> {
     /// The random ones first.
     probes: Vec<Probe<'a>>,
     generic: usize,
-    /// Of each state the block, column by column, and the rows that meet it, both over the square roots of the largest diagonals.
+    /// The block at each state, column by column, and the rows that meet it, both over the square roots of the largest diagonals.
     scaled: Vec<Vec<f64>>,
     rows: Vec<(usize, Vec<Vec<f64>>)>,
 }

@@ -11,13 +11,13 @@ use std::collections::BTreeSet;
 
 /// Higher powers are left to repeated squaring.
 const POWER: i32 = 3;
-/// Of the factors of one product that others have, too, so many are looked at: the pairs are as many as the square of that.
+/// So many factors of one product that others have, too, are looked at: the pairs are as many as the square of that.
 const MOST: usize = 64;
 
 /// What a product is made of.
 #[derive(Clone, Copy, PartialEq)]
 enum Factor {
-    /// To the power of 1 or −1.
+    /// A factor to the power of 1 or −1.
     Given(Id, i32),
     Both(usize, usize),
 }
@@ -25,9 +25,9 @@ enum Factor {
 /// A product above its fraction bar.
 struct Product {
     at: Id,
-    /// Its factors, each as often as it occurs, in ascending order.
+    /// The factors of the product, each as often as it occurs, in ascending order.
     factors: Vec<usize>,
-    /// Those that are not looked at: no other product has them, or they divide.
+    /// The factors that are not looked at: no other product has them, or they divide.
     others: Vec<(Id, i32)>,
 }
 

@@ -1,7 +1,7 @@
 //! Structural rank: what no choice of parameters can mend.
 
-/// Of the rows with the given `columns`, those that a maximum matching of rows to columns leaves out.
-/// If none is left out the matrix has full row rank for almost all values of its entries.
+/// The rows, of those with the given `columns`, that a maximum matching of rows to columns leaves out. If none is left out the matrix has
+/// full row rank for almost all values of its entries.
 pub(crate) fn unmatched_rows(columns_of_row: &[Vec<usize>], columns: usize) -> Vec<usize> {
     let mut row_of_column: Vec<Option<usize>> = vec![None; columns];
     // For which row each column was visited last.

@@ -21,7 +21,7 @@ pub(crate) struct Switch {
     pub(crate) function: Id,
     /// The terms of the equations of motion that turn at its zeros, in words.
     pub(crate) terms: Vec<String>,
-    /// It is a length, which reaches zero and does not change its sign.
+    /// Whether the function is a length, which reaches zero and does not change its sign.
     pub(crate) length: bool,
 }
 

@@ -9,11 +9,11 @@ use std::rc::Rc;
 pub(crate) struct Derivative {
     seed: Seed,
     known: Map<Id, Id>,
-    /// Of sums, the terms that matter.
+    /// The terms of sums that matter.
     sums: Rc<Sums>,
 }
 
-/// Of long sums, the terms that depend on a symbol: all derivatives of a sum cost one look at each term.
+/// The terms of long sums that depend on a symbol: all derivatives of a sum cost one look at each term.
 #[derive(Default)]
 struct Sums(HashMap<Id, BTreeMap<Symbol, Vec<(Num, Id)>>>);
 
@@ -172,7 +172,7 @@ enum Seed {
     Partial(Symbol),
     /// d/dt with q → q̇, t → 1 and q̇ fixed: the total derivative without its q̈ terms.
     Total,
-    /// Of nothing but what was entered.
+    /// Nothing but what was entered has a derivative.
     Entered,
 }
 

@@ -158,7 +158,7 @@ impl Graph {
         self.factored_sum_of(terms, |_, _| true)
     }
 
-    /// As [`Graph::factored_sum`], with those factors alone in front that are `wanted`.
+    /// Sums as [`Graph::factored_sum`] does, with those factors alone in front that are `wanted`.
     pub(crate) fn factored_sum_of(
         &mut self,
         terms: &[(f64, Id)],

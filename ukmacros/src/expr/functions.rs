@@ -46,7 +46,7 @@ pub(crate) enum Cost {
     Transcendental,
 }
 
-/// Where the value at a constant is exact, so that folding it does not make the emitted code depend on the compiling machine's libm.
+/// The constants at which a value is exact, so that folding it does not make the emitted code depend on the compiling machine's libm.
 pub(super) enum Exact {
     Never,
     /// f(x) = y.

@@ -74,7 +74,7 @@ pub(crate) enum Symbol {
     Param(usize),
     /// A coordinate q, by its position.
     Coord(usize),
-    /// Its velocity q̇.
+    /// The velocity q̇ of a coordinate, by its position.
     Velocity(usize),
     /// Time t.
     Time,
@@ -102,7 +102,7 @@ pub(crate) enum Node {
     Call(Func, Vec<Id>),
     /// The node itself, kept whole: products do not open it, so that it is computed once for all its users.
     Held(Id),
-    /// Of [a, b, c, d] c where a ≤ b, else d.
+    /// Of [a, b, c, d], c where a ≤ b, else d.
     Select([Id; 4]),
 }
 
@@ -154,9 +154,9 @@ pub(crate) struct Graph {
     uses: Vec<Uses>,
     /// Estimated latency of each node, in cycles: its place on the critical path.
     latency: Vec<u32>,
-    /// By hash the last node that has it: nodes stand in the arena alone, which is often copied.
+    /// The last node that has a hash, by the hash: nodes stand in the arena alone, which is often copied.
     known: Map<u64, Id>,
-    /// Of each node the one before it with the same hash.
+    /// The node before each node with the same hash.
     alike: Vec<Option<Id>>,
 }
 

@@ -429,7 +429,7 @@ fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
     g.scale(c.signum(), rest)
 }
 
-/// Both without the `positive` factors that they share.
+/// Takes from `a` and `b` the `positive` factors that they share.
 fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
     let others = g.factors(b);
     let own = g.factors(a).into_iter();

@@ -40,7 +40,7 @@ const DRIFTED: f64 = 0.5;
 /// A row that may be left out, and the state of its elimination.
 #[derive(Clone)]
 pub(super) struct Dropping {
-    /// Its position.
+    /// The position of the row.
     pub(super) at: usize,
     /// d, but for a row whose pivot is zero whatever the state.
     pivot: Option<Id>,
@@ -114,7 +114,7 @@ pub(super) fn droppings(
     dropped.collect()
 }
 
-/// Of each constraint of `d` the square of its row's length, in units of inertia.
+/// The square of the length of each constraint's row of `d`, in units of inertia.
 pub(super) fn squares(d: &Dynamics, g: &mut Graph) -> Vec<Id> {
     let mut squares: Vec<Vec<(f64, Id)>> = vec![Vec::new(); d.rhs.len()];
     for ((row, i), a) in &d.jacobian {
@@ -161,7 +161,7 @@ pub(super) fn kernel(
     Ok(found.constraints)
 }
 
-/// Of each constraint its share of what the rows left out follow from, squared: its part of the `kernel`, compared with what a row of its
+/// The share of each constraint in what the rows left out follow from, squared: its part of the `kernel`, compared with what a row of its
 /// length could be; `None` where it has none that could be measured.
 pub(super) fn shares(kernel: &[Id], squares: &[Id], g: &mut Graph) -> Vec<Option<Id>> {
     let shares = kernel.iter().zip(squares).map(|(x, square)| {

@@ -16,7 +16,7 @@ const CHAIN: usize = 8;
 /// K, with entries that are sums still open.
 pub(super) struct Matrix<'a> {
     pub(super) n: usize,
-    /// Of coordinates and constraints.
+    /// The names of coordinates and constraints.
     pub(super) names: &'a [String],
     /// Names of what is computed.
     pub(super) hints: Vec<(Id, String)>,
@@ -31,13 +31,13 @@ pub(super) struct Matrix<'a> {
     turn: Vec<usize>,
     /// Constraints that may be left out.
     droppable: BTreeSet<usize>,
-    /// Of what took the place of two coordinates, how many rotations before it were not scaled.
+    /// How many rotations that were not scaled come before each coordinate that took the place of two.
     pub(super) turned: Vec<Option<usize>>,
     /// How many coordinates and constraints are the mechanism's: they come first.
     pub(super) own: (usize, usize),
     /// Coordinates of the mechanism with its constraints that they are eliminated with, until the first of them is.
     pub(super) given: Vec<Pair>,
-    /// Of each coordinate, [how far](Matrix::mobility) those move that it gives, where that varies.
+    /// How far the coordinates [move](Matrix::mobility) that each coordinate gives, where that varies.
     pub(super) mobilities: BTreeMap<usize, Id>,
     /// Whether what stands for different coordinates shares little inertia, whatever the state.
     pub(super) apart: bool,
@@ -68,11 +68,12 @@ pub(super) struct Single {
     pub(super) sign: f64,
     /// The pivot is `numerator`/`denominator`, but for its sign.
     pub(super) numerator: Id,
-    /// Where the division of the one before was put off; else the pivot is `numerator`.
+    /// The number that the pivot is still to be divided by, where the division of the one before was put off; else the pivot is
+    /// `numerator`.
     pub(super) denominator: Option<Id>,
     /// The diagonal that the pivot started from.
     pub(super) reference: Id,
-    /// Of a row that may be left out, what stands for one over the pivot.
+    /// What stands for one over the pivot of a row that may be left out.
     pub(super) reciprocal: Option<Id>,
     /// What is divided by the pivot is computed once. For a coordinate that shares no inertia, products are left open, so that terms of
     /// different coordinates can be collected.
@@ -175,7 +176,7 @@ impl<'a> Matrix<'a> {
         self.entries.remove(&(a.max(b), a.min(b)));
     }
 
-    /// Those entries of `k` with `others` that are not zero, as `value` gives them.
+    /// The entries of `k` with `others` that are not zero, as `value` gives them.
     pub(super) fn row(
         &self,
         others: &BTreeSet<usize>,

@@ -54,18 +54,19 @@ impl Order {
 /// Which coordinates are taken together with constraints, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Taste {
-    /// Those without inertia, and those that a constraint prescribes alone; for the other constraints A M⁻¹ Aᵀ is eliminated.
+    /// The coordinates without inertia, and those that a constraint prescribes alone; for the other constraints A M⁻¹ Aᵀ is eliminated.
     Multipliers,
     /// All whose coefficient in a constraint is fixed, those that no other constraint contains first: bodies pinned to each other are taken
     /// leaf by leaf, each with its pins, which is the recursion over articulated bodies.
     Leaves,
-    /// Those of [`Leaves`](Taste::Leaves), with what changes the fewest entries first, as from the ground on; among equals what leaves no
-    /// division to run time.
+    /// The coordinates of [`Leaves`](Taste::Leaves), with what changes the fewest entries first, as from the ground on; among equals what
+    /// leaves no division to run time.
     Roots,
-    /// Those of [`Leaves`](Taste::Leaves), with what was declared last first: of velocities that are given by each other the last, and each
-    /// joint once it can be.
+    /// The coordinates of [`Leaves`](Taste::Leaves), with what was declared last first: of velocities that are given by each other the
+    /// last, and each joint once it can be.
     Last,
-    /// As multipliers, after what is alone with a constraint in pairs is turned: see [`super::rotation`].
+    /// The coordinates of [`Multipliers`](Taste::Multipliers), after what is alone with a constraint in pairs is turned: see
+    /// [`super::rotation`].
     Freedoms,
 }
 
@@ -234,7 +235,7 @@ fn changed_by_pair(pair: &Pair, pattern: &Pattern) -> usize {
     a * b + usize::from(pair.massive) * b * (b + 1) / 2
 }
 
-/// By the number of constraints that wait for the coordinate, or of entries that the pair fills or changes.
+/// The key of a pair: the number of constraints that wait for the coordinate, or of entries that the pair fills or changes.
 fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let (coordinate, constraint) = (pair.coordinate, pair.constraint);
     let changed = changed_by_pair(pair, pattern);

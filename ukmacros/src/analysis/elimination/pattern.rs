@@ -17,7 +17,7 @@ pub(super) struct Pattern {
     near: Vec<BTreeSet<usize>>,
     /// Whether a coordinate has a diagonal entry.
     pub(super) inertia: Vec<bool>,
-    /// Of each constraint, its coordinates that are left: not those that share inertia with eliminated ones.
+    /// The coordinates of each constraint that are left, without those that share inertia with eliminated ones.
     own: Vec<BTreeSet<usize>>,
     /// Entries (constraint, coordinate) that are the same at all states.
     fixed: BTreeMap<(usize, usize), Coefficient>,
@@ -30,7 +30,7 @@ pub(super) struct Pattern {
     /// Coordinates what is left of whose inertia is the same at all states, as far as the pattern tells: nothing is divided by it at run
     /// time.
     pub(super) lasting: BTreeSet<usize>,
-    /// Those that took the place of two, with the longest chain of rotations before them.
+    /// The coordinates that took the place of two, with the longest chain of rotations before them.
     turned: BTreeMap<usize, usize>,
     /// Constraints that may be left out, and are to be eliminated by themselves.
     kept: BTreeSet<usize>,

@@ -228,8 +228,8 @@ impl Matrix<'_> {
         Ok(divisors)
     }
 
-    /// Of the other constraints on the two, the diagonal is to count what these had of coordinates as they were declared, from now on
-    /// and once for all.
+    /// Counts in the diagonal of the other constraints on the two what these had of coordinates as they were declared, from here on and
+    /// once for all.
     fn count_in(&mut self, rotation: Rotation, block: &Block, g: &mut Graph) {
         for (i, inertia) in rotation.coordinates.into_iter().zip(block.own) {
             if self.turned[i].is_none() {

@@ -10,7 +10,7 @@ use crate::expr::{Graph, Id};
 pub(super) struct Solution {
     /// The coordinates' part of it.
     pub(super) coordinates: Vec<Id>,
-    /// Of each step the right-hand side, times the same number as its pivot; none of 2 × 2 pivots.
+    /// The right-hand side of each step, times the same number as its pivot; none of 2 × 2 pivots.
     pub(super) rights: Vec<Option<Id>>,
     /// The constraints' part of x, if it was asked for.
     pub(super) constraints: Vec<Id>,
@@ -26,7 +26,7 @@ pub(super) struct Forward {
     rights: Vec<Option<Id>>,
     /// What each step leaves of its unknown; of a rotation the right-hand side.
     solved: Vec<Id>,
-    /// Of each 2 × 2 pivot, in their order, the right-hand side of its coordinate.
+    /// The right-hand side of the coordinate of each 2 × 2 pivot, in their order.
     given: Vec<Id>,
 }
 

@@ -100,7 +100,7 @@ struct Member {
 }
 
 impl Member {
-    /// By how much the indices of `next` are greater, where all else is the same.
+    /// The amounts by which the indices of `next` are greater, where all else is the same.
     fn step(&self, next: &Member) -> Option<Vec<i64>> {
         if self.shape != next.shape {
             return None;

@@ -4,7 +4,7 @@ use super::families::Run;
 use super::{Block, Formula, Index, Name, Part, Precedence, number};
 use std::fmt::Write as _;
 
-/// Between factors.
+/// The space between factors.
 const SPACE: &str = "<mspace width=\"0.17em\"/>";
 
 impl Block {

@@ -11,7 +11,7 @@ use std::fmt;
 /// An expression to be read.
 #[derive(Clone, Debug)]
 pub(crate) enum Formula {
-    /// Not negative.
+    /// A number that is not negative.
     Number(f64),
     Name(Name),
     /// The rate of a coordinate.
@@ -69,7 +69,7 @@ impl Formula {
         Formula::Name(Name::from(text))
     }
 
-    /// With the sign of `c`.
+    /// The formula with the sign of `c`.
     pub(crate) fn signed(self, c: f64) -> Self {
         match c < 0.0 {
             true => Formula::Negative(Box::new(self)),

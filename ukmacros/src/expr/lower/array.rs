@@ -46,7 +46,7 @@ impl Value {
         Value::new(&[entries.len()], entries)
     }
 
-    /// Its shape, empty for a number.
+    /// The shape of the value, empty for a number.
     pub(super) fn shape(&self) -> &[usize] {
         match self {
             Value::Array(array) => &array.shape,
@@ -127,7 +127,7 @@ impl Value {
         Ok(Value::new(&stacked, entries))
     }
 
-    /// Its transpose; nothing of what is no matrix.
+    /// The transpose of the value; nothing of what is no matrix.
     pub(super) fn transposed(&self) -> Option<Value> {
         let [rows, columns] = *self.shape() else {
             return None;

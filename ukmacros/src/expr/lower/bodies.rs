@@ -19,7 +19,7 @@ use ukunits::Dimension;
 
 /// A body, or the ground.
 pub(super) struct Frame {
-    /// As written: `link[3]`, `ground`.
+    /// The name as written: `link[3]`, `ground`.
     pub(super) name: String,
     /// Nothing for the ground, whose frame is that of the coordinates.
     pub(super) moving: Option<Moving>,
@@ -31,16 +31,16 @@ pub(super) struct Moving {
     pub(super) centre: Vec<Id>,
     /// A point in the body's frame: the centre of mass, or where it hangs on a joint.
     pub(super) reference: Vec<Id>,
-    /// Where that point is, in axes of the ground.
+    /// The place of that point, in axes of the ground.
     pub(super) place: Vec<Id>,
     pub(super) orientation: Orientation,
 }
 
 /// How a body is turned.
 pub(super) enum Orientation {
-    /// By coordinates of its own, the angle or the quaternion.
+    /// The body's own coordinates turn it: the angle or the quaternion.
     Own(Vec<Id>),
-    /// As a joint of the tree has it.
+    /// A joint of the tree turns it.
     Hung(Hung),
 }
 
@@ -48,7 +48,7 @@ pub(super) enum Orientation {
 pub(super) struct Hung {
     /// The matrix that turns vectors from the body's axes to those of the ground, by rows.
     pub(super) axes: Vec<Id>,
-    /// In the plane, the angle from the ground.
+    /// The angle from the ground, in the plane.
     pub(super) angle: Id,
     /// The angular velocity in axes of the body, one number in the plane.
     pub(super) omega: Vec<Id>,
@@ -59,7 +59,7 @@ pub(super) struct Hung {
 /// A point of a body.
 pub(super) struct Point {
     pub(super) body: Rc<Frame>,
-    /// Where it is, in axes of the ground.
+    /// The place of the point, in axes of the ground.
     pub(super) place: Value,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Point {
 pub(super) struct Declared {
     pub(super) body: Body,
     pub(super) variables: Vec<Variable>,
-    /// Its frame, once it is used.
+    /// The body's frame, once it is used.
     pub(super) frame: Option<Rc<Frame>>,
 }
 
@@ -97,7 +97,7 @@ impl Frame {
         Some(if moving.kind.spatial { 3 } else { 2 })
     }
 
-    /// Where the point `p` of its frame is, in axes of the ground.
+    /// The place of the point `p` of the frame, in axes of the ground.
     pub(super) fn at(&self, p: &Value, g: &mut Graph) -> Value {
         let Some(moving) = &self.moving else {
             return p.clone();
@@ -115,7 +115,7 @@ impl Frame {
         Value::vector(sums.collect())
     }
 
-    /// Where its centre of mass is; nothing of the ground.
+    /// The place of the centre of mass; nothing of the ground.
     pub(super) fn centre(&self, g: &mut Graph) -> Value {
         match &self.moving {
             Some(moving) if matches!(moving.orientation, Orientation::Own(_)) => {
@@ -159,7 +159,7 @@ impl Moving {
         }
     }
 
-    /// Its angular velocity: about the axis out of the plane, or a vector in axes of the ground or its own.
+    /// The angular velocity: about the axis out of the plane, or a vector in axes of the ground or the body's own.
     pub(super) fn omega(&self, own: bool, g: &mut Graph) -> Value {
         match &self.orientation {
             Orientation::Own(coordinates) => turning(coordinates, own, g),

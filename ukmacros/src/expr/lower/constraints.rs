@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 #[derive(Default)]
 pub(super) struct Names {
     items: HashSet<String>,
-    /// By base, whether it is indexed: `rod` and `rod[0]` are not both declared, so that `T::ROD` has one meaning.
+    /// Whether a base is indexed: `rod` and `rod[0]` are not both declared, so that `T::ROD` has one meaning.
     indexed: HashMap<String, bool>,
 }
 

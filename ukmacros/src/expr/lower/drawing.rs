@@ -242,7 +242,7 @@ impl<'m> Lowering<'m> {
 /// Points nearer to a line or a plane than this part of its length are on it.
 const STRAIGHT: f64 = 1e-9;
 
-/// From `p` to `q`.
+/// The way from `p` to `q`.
 fn way(p: &[f64], q: &[f64]) -> Vec<f64> {
     q.iter().zip(p).map(|(q, p)| q - p).collect()
 }

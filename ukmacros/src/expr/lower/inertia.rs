@@ -19,7 +19,7 @@ pub(super) struct OfBodies {
     pub(super) diagonal: Vec<(usize, Id, Loc)>,
     /// Terms of the kinetic energy, but for those of `diagonal`.
     pub(super) turning: Vec<(f64, Id)>,
-    /// Where the first body is declared whose part of M changes.
+    /// The place where the first body is declared whose part of M changes.
     pub(super) changing: Option<Loc>,
     pub(super) potential: Vec<(f64, Id)>,
     pub(super) units: Vec<Constraint>,

@@ -44,7 +44,7 @@ use std::rc::Rc;
 use ukunits::Dimension;
 use units::{Dimensions, Measured};
 
-/// Where an expression stands, which decides what it may use.
+/// The place where an expression stands, which decides what it may use.
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     Const,
@@ -76,7 +76,7 @@ enum NoValue {
 
 enum Binding {
     Value(Value),
-    /// By indices, as many for each member.
+    /// The members by their indices, as many for each.
     Family(BTreeMap<Vec<i64>, Value>),
     Function(Rc<Function>),
 }
@@ -141,7 +141,7 @@ struct Lowering<'m> {
     lets: HashMap<String, Binding>,
     /// Families of values to which the current block of `let` may still add.
     unfinished: HashSet<String>,
-    /// By their place in [`Model::body_elements`]; nothing for those in error.
+    /// The bodies by their place in [`Model::body_elements`]; nothing for those in error.
     bodies: Vec<Option<Declared>>,
     /// The positions of those whose frames are being made.
     pending: Vec<usize>,
@@ -167,7 +167,7 @@ struct Lowering<'m> {
     constrained: bool,
     /// Constraints by their names, without those of rows.
     known: HashMap<String, Known>,
-    /// Where the first reaction is used.
+    /// The place where the first reaction is used.
     reaction_used: Option<Loc>,
     /// What joints and springs are between.
     between: Vec<Between>,

@@ -35,7 +35,7 @@ enum Takes {
     Turn,
 }
 
-/// Where a part lives.
+/// The world that a part is of: the plane, space, or both.
 #[derive(Clone, Copy, PartialEq)]
 enum Home {
     Plane,
@@ -170,7 +170,7 @@ const COUNTERPARTS: &[(&str, &str)] = &[
 #[derive(Default)]
 pub(super) struct Acting {
     pub(super) potential: Vec<(f64, Id)>,
-    /// By coordinate.
+    /// The forces by coordinate.
     pub(super) force: BTreeMap<usize, Vec<Id>>,
 }
 
@@ -186,7 +186,7 @@ impl Part {
         matches!(self.meaning, Meaning::Rows(..))
     }
 
-    /// As it is written.
+    /// The part as it is written, with its arguments.
     fn usage(&self) -> String {
         let args = self.args.iter().map(|arg| match arg.default.is_empty() {
             true => arg.name.to_owned(),
@@ -199,9 +199,9 @@ impl Part {
 /// The rows of a joint, which know their names.
 pub(super) struct Joint {
     pub(super) rows: Value,
-    /// As many as there are rows; none where the only row goes by the name of the joint.
+    /// The names of the rows, as many as there are rows; none where the only row goes by the name of the joint.
     pub(super) names: Vec<&'static str>,
-    /// Where it is between bodies.
+    /// The load on the second body, where the joint is between bodies.
     pub(super) load: Option<Load>,
 }
 

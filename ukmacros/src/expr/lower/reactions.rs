@@ -16,15 +16,15 @@ use std::ops::Range;
 /// A constraint that is declared: its rows.
 pub(super) struct Known {
     rows: Range<usize>,
-    /// Of its equation.
+    /// The shape of the constraint's equation.
     shape: Vec<usize>,
     /// What a joint of several rows calls them.
     names: Vec<&'static str>,
-    /// Of a joint between bodies.
+    /// The load of a joint between bodies.
     load: Option<Load>,
 }
 
-/// Where the load of a joint on its second body is read.
+/// What the load of a joint on its second body is read from.
 #[derive(Clone)]
 pub(super) struct Load {
     /// Coordinates of a centre of mass, by position; none of a body whose place follows from other coordinates.
@@ -51,7 +51,7 @@ impl Load {
         g.reachable(place).iter().any(own)
     }
 
-    /// Of a joint of `first` and `second`, unless both are of the ground.
+    /// The load of a joint of `first` and `second`, unless both are of the ground.
     pub(super) fn between(
         first: Option<&Frame>,
         second: &Frame,

@@ -192,7 +192,7 @@ impl<'m> Lowering<'m> {
         false
     }
 
-    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body, which it is, and whether the body is spatial.
+    /// What `arm.centre`, `arm.omega` or `arm.spin` names: the key of the body, which vector it is, and whether the body is spatial.
     fn vector_of(
         &mut self,
         key: &Key,
@@ -223,8 +223,8 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Where in q what a vector of the body at `position` says goes: to its own coordinates, or of an angular velocity to those of the
-    /// joint of the tree between it and the ground that turn it freely.
+    /// The place in q that a vector of the body at `position` tells of: its own coordinates, or for an angular velocity those of the joint
+    /// of the tree between it and the ground that turn it freely.
     fn place_of(&self, position: usize, vector: OfBody, spatial: bool) -> Option<usize> {
         let offset = match (vector, spatial) {
             (OfBody::Centre, _) => 0,

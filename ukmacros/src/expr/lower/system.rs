@@ -25,14 +25,14 @@ pub(crate) struct System {
     pub(crate) potential: Option<Id>,
     /// The paper's c, by coordinate.
     pub(crate) nonideal: Option<BTreeMap<usize, Id>>,
-    /// Of each spatial body its name, its mass, and its inertia by rows.
+    /// The name, the mass, and the inertia by rows, of each spatial body.
     pub(crate) inertias: Vec<(String, Vec<Id>)>,
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
     /// What is integrated along with the motion.
     pub(crate) integrals: Vec<OutputValue>,
-    /// Where the first reaction is used, if one is.
+    /// The place where the first reaction is used, if one is.
     pub(crate) reaction: Option<Loc>,
     pub(crate) starts: Vec<StartValue>,
     /// What the reaction of each constraint is multiplied by, where one is used: 1, or not a number where it is not unique.
@@ -96,7 +96,7 @@ pub(crate) struct ConstraintRef {
 }
 
 impl ConstraintRef {
-    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
+    /// The name as shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
         let whole = self.whole();
         match self.row {
@@ -141,9 +141,9 @@ pub(crate) struct OptionValue {
 /// The unit of a default.
 #[derive(Clone, Default)]
 pub(crate) struct NamedUnit {
-    /// In SI.
+    /// The unit in SI.
     pub(crate) si: String,
-    /// As it is written, where numbers of it are not in SI; else empty.
+    /// The unit as it is written, where numbers of it are not in SI; else empty.
     pub(crate) written: String,
 }
 
@@ -152,32 +152,32 @@ pub(crate) struct NamedUnit {
 pub(crate) enum GuessKind {
     Position,
     Velocity,
-    /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the ground.
+    /// An angular velocity in axes of the ground: for the four coordinates of a quaternion nothing, then its components.
     Omega,
-    /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the body.
+    /// An angular velocity in axes of the body: for the four coordinates of a quaternion nothing, then its components.
     Spin,
 }
 
-/// Where a coordinate, or its velocity, is at a start.
+/// A guess of a coordinate, or of its velocity, at a start.
 pub(crate) struct GuessValue {
     pub(crate) coordinate: usize,
     pub(crate) kind: GuessKind,
     pub(crate) held: bool,
-    /// By parameters and options.
+    /// The value, by parameters and options.
     pub(crate) value: Id,
 }
 
 /// A picture of the mechanism.
 #[derive(Default)]
 pub(crate) struct Drawing {
-    /// Of the plane, 2, or of space, 3.
+    /// 2 for a picture in the plane, 3 for one in space.
     pub(crate) dimension: usize,
     pub(crate) shapes: Vec<ShapeValue>,
 }
 
 pub(crate) struct ShapeValue {
     pub(crate) kind: ShapeKind,
-    /// Its points, one after the other; of a circle its radius behind.
+    /// The shape's points, one after the other; of a circle its radius behind.
     pub(crate) numbers: Vec<Id>,
     pub(crate) label: String,
 }

@@ -20,7 +20,7 @@ pub(super) enum Measured {
     /// A number that is made of numbers: of no dimension as a factor, of any as a term.
     Number,
     Unknown,
-    /// Its dimension, and whether a unit that is declared is among what it follows from.
+    /// The dimension, and whether a unit that is declared is among what it follows from.
     Known(Dimension, bool),
 }
 
@@ -39,15 +39,15 @@ pub(super) enum Clash {
 /// What units say of a graph.
 pub(super) struct Dimensions<'m> {
     pub(super) diag: &'m Diagnostics,
-    /// Of parameters.
+    /// The dimensions of parameters.
     pub(super) params: Vec<Measured>,
-    /// Of what stands for numbers, with these, and for options: symbols behind those of the `first` parameters.
+    /// The dimensions of what stands for numbers, with these, and for options: symbols behind those of the `first` parameters.
     symbols: Vec<(Measured, Option<f64>)>,
     first: usize,
     pub(super) coordinates: Vec<Measured>,
-    /// Of what multipliers belong to, by the constraint's position.
+    /// The dimensions of what multipliers belong to, by the constraint's position.
     pub(super) rows: Vec<Measured>,
-    /// By the places of nodes.
+    /// The dimensions of nodes, by their places.
     pub(super) nodes: Vec<Measured>,
     /// What stands for a number of this value and this unit.
     numbers: HashMap<(u64, Option<String>), Symbol>,
@@ -202,7 +202,7 @@ impl Dimensions<'_> {
         }
     }
 
-    /// Of a value.
+    /// The dimension of a value.
     pub(super) fn of(&mut self, id: Id, g: &Graph) -> Measured {
         self.see(g);
         self.nodes[id.index()]

@@ -13,7 +13,7 @@ pub(super) struct Operation {
     arity: usize,
     /// What it takes, in words.
     takes: &'static str,
-    /// Its value, if the shapes of its arguments are right.
+    /// The value of the operation, if the shapes of its arguments are right.
     value: fn(&mut Graph, &[Value]) -> Option<Value>,
 }
 
