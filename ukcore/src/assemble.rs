@@ -95,7 +95,7 @@ pub struct Residuals {
 }
 
 impl Residuals {
-    /// Those of `mech` at (t, q, q̇).
+    /// The residuals of `mech` at (t, q, q̇).
     pub(crate) fn at(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Self {
         let spec = mech.spec();
         let (mut position, mut velocity) = (vec![0.0; spec.holonomic], vec![0.0; spec.m()]);
@@ -172,7 +172,7 @@ pub(crate) struct Held {
     pub(crate) untold: Vec<usize>,
     /// Coordinates of whose velocity it says nothing: these follow, at whatever size, before one of which it speaks is changed.
     pub(crate) untold_rates: Vec<usize>,
-    /// Of quaternions the coordinates, four by four, in whose velocities an angular velocity stands.
+    /// The coordinates of quaternions, four by four, in whose velocities an angular velocity stands.
     pub(crate) turning: Vec<(usize, GuessKind)>,
 }
 
@@ -193,7 +193,7 @@ impl Held {
         all
     }
 
-    /// These without coordinate `j`.
+    /// What is held without coordinate `j`.
     fn without(&self, j: usize) -> Self {
         let others = |held: &[usize]| held.iter().copied().filter(|k| *k != j).collect();
         Held {

@@ -94,10 +94,10 @@ impl Prepared {
     }
 }
 
-/// Where other ways to put a mechanism together are looked for.
+/// The places where other ways to put a mechanism together are looked for.
 #[derive(Clone, Copy, PartialEq)]
 enum Look {
-    /// Where assembly compares them.
+    /// The parts where assembly compares such ways.
     AtParts,
     /// All around the guess, too, where coordinates stay free.
     Everywhere,
@@ -296,14 +296,14 @@ impl Ways<'_> {
 struct Places {
     /// Coordinates whose whole turns change nothing.
     angles: &'static [usize],
-    /// Those of quaternions, which are the same orientation with the other sign.
+    /// The coordinates of quaternions, which are the same orientation with the other sign.
     quaternions: Vec<Vec<usize>>,
     /// How large coordinates are.
     extents: Vec<f64>,
 }
 
 impl Places {
-    /// Of places beside the one `at`.
+    /// What tells places apart beside the one `at`.
     fn new(mech: &Prepared, at: &State, extents: Vec<f64>) -> Self {
         let found = quaternions(mech, at).into_iter().map(|(_, all)| all);
         Places {

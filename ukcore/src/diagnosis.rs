@@ -360,7 +360,7 @@ fn implied(relations: &[Relation]) -> Vec<usize> {
     relations.iter().map(|relation| relation.row).collect()
 }
 
-/// Those of `rows` that do not `follow` from others.
+/// The rows of `rows` that do not `follow` from others.
 fn free(rows: &DMatrix<f64>, follow: &[usize]) -> Vec<usize> {
     let all = 0..rows.nrows();
     all.filter(|row| !follow.contains(row)).collect()

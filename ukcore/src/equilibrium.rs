@@ -58,7 +58,7 @@ const LEFT: f64 = 0.1;
 const ROUNDINGS: f64 = 16.0;
 /// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
 const MOMENT: f64 = 1e-6;
-/// Where a stiffness fades towards the place where forces vanish, as that of x⁴ at 0, this part of the coordinates is near it.
+/// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
 /// it was asked to be: else it may have come to another branch.
@@ -155,7 +155,7 @@ struct Search {
     held: Vec<usize>,
     /// The largest coordinate so far, in units of the coordinates.
     size: f64,
-    /// At rest all forces so far have been those of the potential.
+    /// Whether all forces at rest so far have been those of the potential.
     conservative: bool,
 }
 

@@ -89,9 +89,9 @@ pub enum Error {
     WrongLength {
         /// Which vector.
         what: &'static str,
-        /// Its length as given.
+        /// The vector's length as given.
         found: usize,
-        /// Its length as needed.
+        /// The vector's length as needed.
         expected: usize,
     },
     /// A setting outside of its range.
@@ -115,7 +115,7 @@ pub enum Error {
         /// Their names.
         constraints: Vec<String>,
     },
-    /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps, or a path with a kink.
+    /// The names of the constraints.
     #[error(
         "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity, \
          nor a path have a kink: smooth it, or end the run there and start another behind it",
@@ -279,7 +279,7 @@ fn distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Where the rounding of a step comes from, and what to do.
+/// The sentence on where the rounding of a step comes from, and what to do.
 fn rounded(time: Option<f64>) -> String {
     match time {
         Some(time) => format!(
@@ -362,7 +362,7 @@ fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
     format!("{size}{fastest}; the motion may have a singularity here, {cause}")
 }
 
-/// As `Display`: `main` prints the error it returns by `Debug`.
+/// Writes the error as `Display` does: `main` prints the error it returns by `Debug`.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

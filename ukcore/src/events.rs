@@ -9,19 +9,19 @@ use looks::Looks;
 
 mod looks;
 
-/// Where all looks at a step do not tell how events go, shorter steps may, until so many of them do not either: then it is noise, and so
-/// many steps go by before more looks are tried again, the next time twice as many.
+/// So many steps whose looks do not tell how events go are tried shorter; after that it is noise, and so many steps go by before more looks
+/// are tried again, the next time twice as many.
 const PATIENCE: usize = 8;
 const REST: usize = 64;
 
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
-    /// From negative to positive.
+    /// Crossings from negative to positive.
     Rising,
-    /// From positive to negative.
+    /// Crossings from positive to negative.
     Falling,
-    /// Both.
+    /// Crossings in both directions.
     #[default]
     Both,
 }

@@ -30,7 +30,7 @@ impl Interval {
         Interval::between(x - radius, x + radius)
     }
 
-    /// Those between two, which may be infinite; all, where one is no number.
+    /// The numbers between two, which may be infinite; all, where one is no number.
     fn between(low: f64, high: f64) -> Self {
         if low <= high {
             Interval { low, high }
@@ -44,7 +44,7 @@ impl Interval {
         0.5 * (self.high - self.low)
     }
 
-    /// Its middle; NaN of what is infinite on both sides.
+    /// The middle; NaN of what is infinite on both sides.
     pub(crate) fn middle(self) -> f64 {
         0.5 * (self.low + self.high)
     }
@@ -63,7 +63,7 @@ impl Interval {
         hull(a).hull(hull(b))
     }
 
-    /// Of a function that rises.
+    /// The values of a function that rises.
     fn rising(self, f: fn(f64) -> f64) -> Self {
         Interval::between(f(self.low), f(self.high))
     }
@@ -132,7 +132,7 @@ impl Scalar for Interval {
     fn cosh(self) -> Self {
         self.abs().rising(f64::cosh)
     }
-    /// It jumps where y changes its sign and x is negative.
+    /// The angles of points; all of them where y changes its sign and x is negative, as the angle jumps there.
     fn atan2(self, x: Self) -> Self {
         if self.has(0.0) && x.low <= 0.0 {
             return ALL;

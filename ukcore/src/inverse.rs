@@ -189,7 +189,7 @@ pub fn inverse_forces(
     Ok(effort.collect())
 }
 
-/// Of the efforts that act by the rows `acting` as `wanted` in the displacements `free` those whose sum of squares is least.
+/// The efforts whose sum of squares is least, of those that act by the rows `acting` as `wanted` in the displacements `free`.
 fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> DVector<f64> {
     let strongest = acting.amax();
     let none = DVector::zeros(acting.nrows());

@@ -201,8 +201,8 @@ impl Kinematics {
     }
 }
 
-/// In a sentence, such as "`bar[0].angle` goes no further than 1.333507 rad (76.404 deg): a dead centre, where `p`, `q`, `r` hold it while
-/// `bar[1].angle` goes on; to pass it, drive `bar[1].angle`".
+/// Writes the limit as a sentence, such as "`bar[0].angle` goes no further than 1.333507 rad (76.404 deg): a dead centre, where `p`, `q`,
+/// `r` hold it while `bar[1].angle` goes on; to pass it, drive `bar[1].angle`".
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let drives = self.drives.iter().zip(&self.units).enumerate();

@@ -124,7 +124,7 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// With the parameters of `mech`.
+    /// Buffers with the parameters of `mech`.
     pub(crate) fn new(mech: &Prepared) -> Self {
         Columns {
             sweep: Sweep::new(mech),
@@ -159,7 +159,7 @@ impl Columns {
         Ok(())
     }
 
-    /// By differentiating the emitted elimination; `false` where its certificate is not `accepted`.
+    /// Computes the columns by differentiating the emitted elimination; `false` where its certificate is not `accepted`.
     fn straight_line(
         &mut self,
         accepted: Accepted,
@@ -199,7 +199,7 @@ struct Sweep {
 }
 
 impl Sweep {
-    /// With the parameters of `mech`.
+    /// Numbers with derivatives, for the parameters of `mech`.
     fn new(mech: &Prepared) -> Self {
         let zeros = || vec![Sloped::from_f64(0.0); mech.spec().n()];
         Sweep {
@@ -211,7 +211,7 @@ impl Sweep {
         }
     }
 
-    /// At (t, q, q̇), moving in the directions from `first` on.
+    /// Sets the state (t, q, q̇), moving in the directions from `first` on.
     fn aim(&mut self, t: f64, q: &[f64], v: &[f64], first: usize) {
         let seed = |x: f64, own: usize| Sloped::new(x, Slopes::unit(own, first));
         let (n, p) = (q.len(), self.mech.parameters().len());

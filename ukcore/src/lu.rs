@@ -13,7 +13,7 @@ pub(crate) struct Lu<T> {
 }
 
 impl<T: ComplexField<RealField = f64> + Copy> Lu<T> {
-    /// For matrices size × size.
+    /// Buffers for matrices size × size.
     pub(crate) fn new(size: usize) -> Self {
         Lu {
             size,

@@ -18,7 +18,7 @@ use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::largest_by;
 use crate::spec::Spec;
 
-/// Where A is looked at beside a state, angles are turned by this much, and by this much more for each of the next few; quaternions by this
+/// Angles are turned by this much where A is looked at beside a state, and by this much more for each of the next few; quaternions by this
 /// share of their length. No sum of few of them is a multiple of a right angle.
 const TURN: f64 = FRAC_PI_2 * 0.618;
 const FURTHER: f64 = 0.19;
@@ -43,7 +43,7 @@ const KNOWN: f64 = 1e-11;
 
 /// Tolerances ask for no less than so many roundings of the longest rod.
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
-/// On that account the shortest rod counts for at most this share of the longest.
+/// The shortest rod is taken for no more than this share of the longest on account of rounding.
 const SHORT: f64 = 1e-3;
 
 /// What coordinates of a mechanism are measured by, in buffers allocated once.

@@ -196,7 +196,7 @@ pub(crate) struct Evaluated<S = f64> {
 }
 
 impl<S: Scalar> Evaluated<S> {
-    /// For n coordinates and m constraints.
+    /// Buffers for n coordinates and m constraints.
     pub(crate) fn new(n: usize, m: usize) -> Self {
         let zeros = |len: usize| vec![S::from_f64(0.0); len];
         Evaluated {

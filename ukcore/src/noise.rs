@@ -55,7 +55,7 @@ impl Noise {
         }
     }
 
-    /// That of φ.
+    /// The rounding of φ.
     pub(crate) fn residual(&mut self, out: &mut [f64]) {
         let h = self.mechanism.spec().holonomic;
         self.mechanism
@@ -63,7 +63,7 @@ impl Noise {
         bounds(&self.rows, out);
     }
 
-    /// That of φ̇ and ψ.
+    /// The rounding of φ̇ and ψ.
     pub(crate) fn residual_rate(&mut self, out: &mut [f64]) {
         self.mechanism
             .residual_rate(self.t, &self.q, &self.v, &mut self.rows);
@@ -94,7 +94,7 @@ impl Noise {
         }
     }
 
-    /// That of A q̈ − b.
+    /// The rounding of A q̈ − b.
     pub(crate) fn motion(&mut self, acceleration: &[f64], out: &mut [f64]) {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);

@@ -26,7 +26,7 @@ pub fn short(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// From here on a number is written as a power of ten.
+/// A number from here on is written as a power of ten.
 const HUGE: f64 = 1e15;
 /// Below it a number is, as its digits stand behind zeros that have to be counted.
 const TINY: f64 = 1e-5;

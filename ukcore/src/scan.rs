@@ -22,7 +22,7 @@ pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
-/// Where |x| is largest, first; 0 of none.
+/// The place where |x| is largest, first; 0 of none.
 pub(crate) fn place_of_largest(x: &[f64]) -> usize {
     (0..x.len()).fold(0, |b, i| if x[i].abs() > x[b].abs() { i } else { b })
 }

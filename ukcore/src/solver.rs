@@ -472,7 +472,7 @@ impl Solver {
         }
     }
 
-    /// Under Formula::Kkt: eliminates, or falls back.
+    /// Eliminates under [`Formula::Kkt`], or falls back.
     fn eliminate(&mut self, formula: Formula) -> Formula {
         match &mut self.saddle {
             Some(saddle) if formula == Formula::Kkt => {

@@ -9,7 +9,7 @@ use nalgebra::{Complex, DMatrix, Dyn, SVD};
 
 /// Iterations at most for each row or column; two or three are usual.
 const TURNS: usize = 60;
-/// After so many turns in which no eigenvalue was found other shifts are tried, and entries that rounding leaves unknown are zero.
+/// The number of turns without an eigenvalue found after which other shifts are tried, and entries that rounding leaves unknown are zero.
 const PATIENCE: usize = 10;
 
 /// How many iterations `matrix` is given; `None` for one that is not finite.
@@ -68,8 +68,8 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(values)
 }
 
-/// Where the last block without a zero below the diagonal begins that ends before `end`. Zero is what is below `unknown`, or rounding of
-/// the diagonal.
+/// The beginning of the last block without a zero below the diagonal that ends before `end`. Zero is what is below `unknown`, or rounding
+/// of the diagonal.
 fn block(h: &DMatrix<f64>, end: usize, unknown: f64) -> usize {
     let zero = |k: &usize| {
         let beside = h[(*k, *k)].abs() + h[(k - 1, k - 1)].abs();

@@ -47,7 +47,7 @@ impl StartOptions {
 }
 
 impl<const N: usize> From<[(&str, f64); N]> for StartOptions {
-    /// These names and values.
+    /// The options with these names and values.
     fn from(values: [(&str, f64); N]) -> Self {
         let values = values.map(|(name, value)| (name.to_owned(), value));
         StartOptions {

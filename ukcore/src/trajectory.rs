@@ -61,7 +61,7 @@ pub struct Work {
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ending {
-    /// It reached the end time.
+    /// The run reached the end time.
     Completed,
     /// A terminal event.
     Event,

@@ -353,7 +353,7 @@ impl fmt::Display for Unverified {
     }
 }
 
-/// As `Display`: `unwrap` and `main` print errors by `Debug`.
+/// Writes the faults as `Display` does: `unwrap` and `main` print errors by `Debug`.
 impl fmt::Debug for Unverified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

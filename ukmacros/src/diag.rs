@@ -21,7 +21,7 @@ impl From<Span> for Loc {
 }
 
 impl Loc {
-    /// From the start of this to the end of `end`.
+    /// The range from the start of this to the end of `end`.
     pub(crate) fn to(self, end: Loc) -> Self {
         Loc {
             start: self.start,

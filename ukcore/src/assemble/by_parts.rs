@@ -39,7 +39,7 @@ const SAME: f64 = 1e-6;
 /// What the guess does not tell of counts so little.
 const UNTOLD: f64 = 1e-6;
 
-/// After so many searches for one guess parts have one solution each.
+/// The number of searches for one guess after which parts have one solution each.
 const MOST: usize = 20_000;
 
 /// The search for the solution next to the guess, one part after the other.
@@ -334,7 +334,7 @@ impl<'a> ByParts<'a> {
         met.found
     }
 
-    /// Of the solutions that do not lie apart from this one the one that is next to what the guess tells.
+    /// The solution that is next to what the guess tells, of those that do not lie apart from this one.
     fn settled(&mut self, part: &Part, near: Found) -> Found {
         let Search {
             manifold, untold, ..

@@ -82,8 +82,8 @@ impl Search {
         self.projected(at, nearest.x)
     }
 
-    /// Where all solutions lie apart the nearest to the guess, and besides it those that are at most `times` as far, or `none`, in what
-    /// hangs together: in each of them it is another one. `None` where coordinates stay free, or where none is found.
+    /// The nearest solution to the guess where all solutions lie apart, and besides it those that are at most `times` as far, or `none`, in
+    /// what hangs together: in each of them it is another one. `None` where coordinates stay free, or where none is found.
     pub(crate) fn ways(
         &mut self,
         at: &At<'_, f64>,

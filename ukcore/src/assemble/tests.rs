@@ -176,7 +176,7 @@ fn conflicts_are_named() {
     );
 }
 
-/// Where no other state can be nearer one search is made, and where one may be all of them: the rod of length 1 at x = 0.6 ends at ±0.8.
+/// One search is made where no other state can be nearer, and all of them where one may be: the rod of length 1 at x = 0.6 ends at ±0.8.
 #[test]
 fn other_states_are_searched_for_where_one_may_be_nearer() {
     let mech = Pendulum::default().prepared();

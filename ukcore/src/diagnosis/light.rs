@@ -7,7 +7,7 @@ use crate::modes::{constraint_matrix, mass_matrix};
 /// A body is light that has less than this part of what another one has.
 const LIGHT: f64 = 1e-4;
 
-/// Of a body's coordinates those of its place, and those of its orientation: inertia is compared among the same ones.
+/// The coordinates of a body's place, and those of its orientation: inertia is compared among the same ones.
 const KINDS: [&[&str]; 2] = [&["x", "y", "z"], &["angle", "e0", "e1", "e2", "e3"]];
 
 /// The body that the constraints called `names` move most for the inertia it has, if that is nothing beside what another one in them has.

@@ -15,7 +15,7 @@ const SOONEST: f64 = 1e-16;
 /// What is no more than so many times what an error of ε in the state makes of it is rounding.
 const ROUNDING: f64 = 8.0;
 
-/// Where they are looked at then, so unevenly that no turns come out even at all of them.
+/// The parts of a step at which events are looked at then, so unevenly that no turns come out even at all of them.
 const LOOKS: [f64; 8] = [0.11, 0.27, 0.36, 0.52, 0.61, 0.77, 0.88, 1.0];
 
 /// A value that differs from what those beside it say by more than this share of their range is of a function that changes too often to

@@ -77,9 +77,9 @@ pub(super) struct Path {
 /// Why a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
-    /// As far as is wanted.
+    /// The path has got as far as is wanted.
     Arrived,
-    /// Where s turns back.
+    /// The path ends where s turns back.
     Turned,
     /// There is no smooth way on.
     Stuck,
@@ -105,7 +105,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Of at most `rank` independent rows, each of length 1, or less as it is shorter than the one of `known` lengths.
+    /// The rows of at most `rank` independent ones, each of length 1, or less as it is shorter than the one of `known` lengths.
     fn new(mut matrix: DMatrix<f64>, rank: usize, known: &[f64]) -> Self {
         let known = |i: usize| known.get(i).copied().unwrap_or(0.0);
         let lengths = DVector::from_fn(matrix.nrows(), |i, _| matrix.row(i).norm().max(known(i)));
@@ -167,7 +167,7 @@ impl Rows {
         self.turned.rows(self.rank, n - self.rank).into_owned()
     }
 
-    /// Of these directions the one nearest to `way`.
+    /// The one of the free directions that is nearest to `way`.
     pub(super) fn along(&self, way: &DVector<f64>) -> Option<DVector<f64>> {
         let free = self.free();
         let way = free.tr_mul(&(&free * way));
@@ -279,7 +279,7 @@ impl Curve<'_> {
         smooth.then_some((place, turn))
     }
 
-    /// Where a cubic from `a` to `b` is at the part `part` of the way, and how fast s changes there.
+    /// The place of a cubic from `a` to `b` at the part `part` of the way, and how fast s changes there.
     pub(super) fn between(&self, a: &Place, b: &Place, part: f64) -> (DVector<f64>, f64) {
         let chord = &b.x - &a.x;
         let length = chord.component_div(&self.units).norm();

@@ -10,7 +10,7 @@ use crate::inverse::Posture;
 use crate::manifold::{At, Level, Manifold};
 use crate::scalar::{Scalar, Sloped, Slopes};
 
-/// Where rows keep less than this part of what is usual, branches cross nearby, and rounding grows by the third power of the inverse.
+/// The part of what is usual below which rows tell that branches cross nearby, and rounding grows by the third power of the inverse.
 const NEAR: f64 = 1e-2;
 /// Then it is the mean of places on both sides, so far away, as a part of a radius of curvature,
 const ASIDE: f64 = 3e-2;
@@ -116,7 +116,7 @@ impl Curve<'_> {
         }
     }
 
-    /// Where the piece from `a` to `b` has the part `s` of the sweep.
+    /// A guess of the place where the piece from `a` to `b` has the part `s` of the sweep.
     fn guess(&self, a: &Place, b: &Place, s: f64) -> DVector<f64> {
         let (n, sense) = (self.mech.spec().n(), (b.s() - a.s()).signum());
         let (mut low, mut high) = (0.0, 1.0);

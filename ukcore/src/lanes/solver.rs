@@ -57,7 +57,7 @@ impl<L: Lanes> LaneSolver<L> {
         }
     }
 
-    /// From here on each step ends with a projection, as for a solver of one lane.
+    /// Takes each step from here on to end with a projection, as for a solver of one lane.
     #[cfg(feature = "ensemble")]
     pub(crate) fn project(mut self) -> Self {
         self.projected = true;

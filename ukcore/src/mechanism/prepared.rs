@@ -116,11 +116,11 @@ pub struct Face {
     drawing: AtState,
     /// [`Mechanism::guess`].
     guess: fn(usize, &[f64], &mut dyn FnMut(Guess)),
-    /// In numbers that carry derivatives.
+    /// The functions in numbers that carry derivatives.
     sloped: &'static dyn Dynamics<Sloped>,
-    /// In numbers that add up their rounding.
+    /// The functions in numbers that add up their rounding.
     rounded: &'static dyn Equations<Rounded>,
-    /// In numbers that may vary.
+    /// The functions in numbers that may vary.
     varied: &'static dyn Equations<Interval>,
 }
 
@@ -164,7 +164,7 @@ impl<S: Scalar> Prepared<S> {
         Prepared::with(&Of::<M>(PhantomData), M::SPEC, given)
     }
 
-    /// This mechanism with other parameters (order of [`Spec::params`]) and the branches held here.
+    /// The mechanism with other parameters (order of [`Spec::params`]) and the branches held here.
     ///
     /// # Panics
     /// If `given` has not the length of [`Spec::params`].
@@ -287,7 +287,7 @@ impl Prepared {
         values
     }
 
-    /// This mechanism with a switch held in its one branch and in the other.
+    /// The mechanism with a switch held in its one branch and in the other.
     pub(crate) fn on_both_sides(&self, switch: usize) -> [Self; 2] {
         [Branch::Negative, Branch::Positive].map(|branch| {
             let mut held = self.clone();
@@ -322,17 +322,17 @@ impl Prepared {
         Ok(())
     }
 
-    /// This mechanism in numbers that carry derivatives, with its parameters and held branches.
+    /// The mechanism in numbers that carry derivatives, with its parameters and held branches.
     pub(crate) fn sloped(&self) -> Prepared<Sloped, dyn Dynamics<Sloped>> {
         self.lift(self.code.face().sloped, Sloped::from_f64)
     }
 
-    /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
+    /// The mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
     pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Equations<Rounded>> {
         self.lift(self.code.face().rounded, Rounded::exact)
     }
 
-    /// This mechanism in numbers that may vary, with its parameters, which do not, and held branches.
+    /// The mechanism in numbers that may vary, with its parameters, which do not, and held branches.
     pub(crate) fn varied(&self) -> Prepared<Interval, dyn Equations<Interval>> {
         self.lift(self.code.face().varied, Interval::exact)
     }

@@ -85,7 +85,7 @@ struct Line {
     /// Positions of spaces, and how deep inside: products are deeper than sums.
     breaks: Vec<(usize, usize)>,
     depth: usize,
-    /// Between `<` and `>`, where nothing is broken.
+    /// Whether the text is between `<` and `>`, where nothing is broken.
     generic: bool,
     last: Last,
 }

@@ -33,7 +33,7 @@ pub trait Slope<S>:
     {
         play(tape, registers, inputs, functions, slices)
     }
-    /// That of a constant.
+    /// The derivative of a constant.
     fn zero() -> Self;
     /// [`Scalar::select_le`] of derivatives.
     fn chosen_le(a: S, b: S, then: Self, otherwise: Self) -> Self;
@@ -73,7 +73,7 @@ impl Slopes {
         Slopes(std::array::from_fn(along))
     }
 
-    /// Those of variable `own` along the variables from `first` on: 1 along itself, else 0.
+    /// The derivatives of variable `own` along the variables from `first` on: 1 along itself, else 0.
     pub(crate) fn unit(own: usize, first: usize) -> Self {
         Slopes::new(|k| f64::from(u8::from(own == first + k)))
     }

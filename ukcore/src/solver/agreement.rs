@@ -18,7 +18,7 @@ pub(super) struct Drift {
 }
 
 impl Drift {
-    /// For n coordinates and m constraints.
+    /// Buffers for n coordinates and m constraints.
     pub(super) fn new(n: usize, m: usize) -> Self {
         Drift {
             known: false,

@@ -25,7 +25,7 @@ const DOUBT: usize = 8;
 pub(crate) struct Accepted([f64; 6]);
 
 impl Accepted {
-    /// Of an elimination that left out no row.
+    /// The certificates of an elimination that left out no row.
     pub(crate) const WHOLE: Accepted = Accepted([WHOLE; 6]);
     /// The certificates of an elimination that left out no row, whatever the inertias.
     pub(crate) const INDEPENDENT: Accepted =
@@ -68,12 +68,13 @@ impl Dropping {
         }
     }
 
-    /// From here on each step of a run ends with a projection, which tells whether constraints are met that are left out within it.
+    /// Makes it known that each step of a run from here on ends with a projection, which tells whether constraints are met that are left
+    /// out within it.
     pub(crate) fn project(&mut self) {
         self.projected = true;
     }
 
-    /// From here on states drift off the constraints, and nothing shows whether those left out are met.
+    /// Makes it known that states drift off the constraints from here on, and nothing shows whether those left out are met.
     pub(crate) fn keep(&mut self) {
         self.forget();
         self.whole = true;

@@ -22,7 +22,7 @@ const ALIKE: f64 = 16.0;
 /// What is known of the rows.
 #[derive(Debug, Clone)]
 pub(super) struct Light {
-    /// Those that were even at a state.
+    /// The rows that were even at a state.
     even: Vec<bool>,
     /// Inertias of coordinates in a row, with their parts.
     parts: Vec<(f64, f64)>,
@@ -92,7 +92,7 @@ impl Light {
     }
 }
 
-/// These coordinates, if they are four that stand beside each other, as a quaternion's.
+/// The range of these coordinates, if they are four that stand beside each other, as a quaternion's.
 fn four(coordinates: impl Iterator<Item = usize> + Clone) -> Option<Range<usize>> {
     let first = coordinates.clone().next()?;
     let all = first..first + 4;
@@ -130,7 +130,7 @@ fn is_even(parts: &mut Vec<(f64, f64)>) -> bool {
 }
 
 impl Solver {
-    /// With the equations in `here`, at the coordinates `q`: whether the elimination last tried can be used as it is.
+    /// Whether the elimination last tried can be used as it is, with the equations in `here`, at the coordinates `q`.
     pub(super) fn is_even(&mut self, q: &[f64]) -> bool {
         let turned = self.mechanism.spec().structure.solve.turned;
         if !self.dropping.is_uneven() || !self.light.look(turned, &self.here, q) {

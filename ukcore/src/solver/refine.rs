@@ -26,7 +26,7 @@ pub(super) struct Known {
     /// Whether there was one, with the parameters of now.
     pub(super) valid: bool,
     jacobian: Vec<f64>,
-    /// Of each row, how much its entries may change, measured; and what columns are measured by.
+    /// How much the entries of each row may change, measured; and what columns are measured by.
     slack: Vec<f64>,
     scale: Vec<f64>,
 }

@@ -14,7 +14,7 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// That of a sample of `mechanism`.
+    /// The residual of a sample of `mechanism`.
     pub(super) fn of(mechanism: &Prepared, sample: Sample<'_>) -> Self {
         let all = Residuals::at(mechanism, sample.t, sample.q, sample.v);
         let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));

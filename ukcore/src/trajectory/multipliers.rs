@@ -46,7 +46,7 @@ impl Trajectory {
         self.samples().map(efforts).collect()
     }
 
-    /// Of each constraint, whether its multiplier is unique: no combination of rows of A that vanishes has it.
+    /// Whether the multiplier of each constraint is unique: no combination of rows of A that vanishes has it.
     fn unique(&self, s: Sample<'_>, solution: &Solution) -> Vec<bool> {
         let mut unique = vec![true; self.spec().m()];
         if solution.rank < unique.len() {

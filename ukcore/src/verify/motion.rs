@@ -17,7 +17,7 @@ use crate::solver::{Solution, Solver, SolverOptions};
 
 /// Equations are to be met to this part of the largest of their terms, in units of inertia.
 const MET: f64 = 1e-8;
-/// Of eqs. 13 and 19 as printed.
+/// Eqs. 13 and 19 as printed are to be met to this part of the largest of their terms.
 const PRINTED: f64 = 1e-5;
 /// Relative rank tolerance of these, on rows of length 1.
 const RANK: f64 = 1e-9;
@@ -290,7 +290,7 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// From a little off the constraints back onto them.
+/// Checks the projection, from a little off the constraints back onto them.
 fn projection(mech: &Prepared, state: &State, random: &mut Random, found: &mut Findings) {
     let spec = mech.spec();
     if spec.m() == 0 {

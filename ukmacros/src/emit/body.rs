@@ -16,14 +16,14 @@ pub(super) struct Writing<'a> {
     pub(super) function: &'a Function,
 }
 
-/// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
-/// `let`, and recurses on them where it writes what debuggers read.
+/// The steps of a function beyond which its variables are declared in groups: the compiler of the emitted code opens a scope within a scope
+/// at each `let`, and recurses on them where it writes what debuggers read.
 const MANY: usize = 1000;
 /// Variables of a group.
 const GROUP: usize = 64;
-/// In functions of more steps, a border follows each group, for the optimiser: packing scalars into vectors takes time that grows as the
-/// square of the statements in sight. A function without borders runs faster: what crosses one waits in memory, and nothing is packed
-/// across it.
+/// The steps of a function beyond which a border follows each group, for the optimiser: packing scalars into vectors takes time that grows
+/// as the square of the statements in sight. A function without borders runs faster: what crosses one waits in memory, and nothing is
+/// packed across it.
 const VAST: usize = 2000;
 
 /// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
@@ -243,7 +243,7 @@ impl Writer<'_> {
         wrap(self.write(id), least).0
     }
 
-    /// As the receiver of a method.
+    /// The value of `id` as the receiver of a method.
     fn receiver(&self, id: Id) -> TokenStream {
         self.wrapped(id, Operator::Call)
     }
@@ -465,7 +465,7 @@ fn join(factors: &[(TokenStream, Operator)]) -> TokenStream {
     product
 }
 
-/// In parentheses unless it binds as tightly as `least`.
+/// Puts an expression in parentheses unless it binds as tightly as `least`.
 fn wrap((tokens, operator): (TokenStream, Operator), least: Operator) -> (TokenStream, Operator) {
     match operator < least {
         true => (quote! { (#tokens) }, Operator::Call),

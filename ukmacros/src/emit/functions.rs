@@ -71,7 +71,7 @@ fn inertias(system: &System, model: &Model) -> Option<TokenStream> {
     })
 }
 
-/// Where coordinates and velocities are at each start, if there are any.
+/// Writes what each start says of coordinates and velocities, if there are any starts.
 fn guesses(system: &System, model: &Model) -> Option<TokenStream> {
     let starts = system.starts.iter().enumerate().map(|(k, start)| {
         let k = Literal::usize_unsuffixed(k);

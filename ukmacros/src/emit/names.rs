@@ -242,7 +242,7 @@ fn power(base: String, exponent: i32) -> Option<String> {
     }
 }
 
-/// In lower case; θ and Θ in one crate are reported as look-alikes.
+/// The name in lower case; θ and Θ in one crate are reported as look-alikes.
 fn snake(text: &str) -> String {
     plain(text).replace('Θ', "theta").to_lowercase()
 }

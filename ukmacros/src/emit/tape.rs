@@ -89,7 +89,7 @@ pub(super) fn tape(
     })
 }
 
-/// Where an operand stands.
+/// The place where an operand stands.
 #[derive(Clone, Copy)]
 enum Operand {
     Input(usize),
@@ -160,7 +160,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Where the value of `id` stands, computed now if it was not before.
+    /// The place where the value of `id` stands, computed here if it was not before.
     fn place(&mut self, id: Id) -> Operand {
         if let Some(place) = self.places.get(&id) {
             return *place;

@@ -43,7 +43,7 @@ pub(super) fn uses(e: &Expr, names: &HashSet<String>) -> bool {
 /// Names of a part that become those of the whole, at the place where the part is declared.
 pub(super) struct Renaming {
     pub(super) names: HashMap<String, String>,
-    /// Those of constraints, which [`LOADS`] alone use.
+    /// Names of the part's constraints, which [`LOADS`] alone use.
     pub(super) constraints: HashMap<String, String>,
     /// Names of parts.
     pub(super) parts: HashSet<String>,

@@ -15,7 +15,7 @@ pub(crate) enum Step {
     Slide(&'static str),
     /// A displacement along this direction by the coordinate before, times this.
     Follow(&'static str, &'static str),
-    /// This matrix, which does not change.
+    /// A turn by this matrix, which does not change.
     Fix(&'static str),
     /// What turns `w`, an axis of the second body, to `u`; nothing where they are the same.
     Align,
@@ -37,7 +37,7 @@ macro_rules! tree_joints {
     };
 }
 
-/// With `u` and `w` at right angles the identity, else what brings `w` to a right angle with `u` in their plane.
+/// The identity where `u` and `w` are at right angles, else what brings `w` to a right angle with `u` in their plane.
 const CROSSED: &str = "transpose([normalise(w - inner(u, w) / sq(u) * u), normalise(u), \
     cross(normalise(w - inner(u, w) / sq(u) * u), normalise(u))]) \
     * [normalise(w), normalise(u - inner(u, w) / sq(w) * w), cross(normalise(w), normalise(u - inner(u, w) / sq(w) * w))]";
@@ -58,13 +58,13 @@ tree_joints! {
 
 /// A joint of the tree.
 pub(crate) struct Joint {
-    /// As written: `elbow`, `knee[2]`.
+    /// The name as written: `elbow`, `knee[2]`.
     pub(crate) name: String,
     pub(crate) key: Ident,
     pub(super) docs: Vec<String>,
     pub(crate) indices: Vec<usize>,
     pub(crate) kind: &'static TreeJoint,
-    /// Its function and arguments, the first two of which are points of bodies.
+    /// The joint's function and arguments, the first two of which are points of bodies.
     pub(crate) call: Ident,
     pub(crate) args: Vec<Expr>,
     /// The loop variables that it was declared under.

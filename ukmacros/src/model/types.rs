@@ -23,9 +23,9 @@ pub(crate) struct Model {
     pub(crate) body_kinds: Vec<BodyKind>,
     /// Joints of the tree.
     pub(crate) joints: Vec<Joint>,
-    /// Of each of `body_elements`, the joint that it hangs on.
+    /// The joint that each of `body_elements` hangs on.
     pub(crate) hung: Vec<Option<usize>>,
-    /// Of each of `body_elements`, the position in q of the first of its own coordinates, which one that hangs on a joint has not.
+    /// The position in q of the first own coordinate of each of `body_elements`, which one that hangs on a joint has not.
     pub(crate) own: Vec<Option<usize>>,
     /// What follows a dot: of bodies and joints of the tree their coordinates, by the name before the dot, and their own.
     pub(crate) fields: HashMap<String, BTreeMap<&'static str, Field>>,
@@ -61,7 +61,7 @@ pub(crate) struct Model {
 pub(crate) struct Integer {
     pub(crate) docs: Vec<String>,
     pub(crate) name: Ident,
-    /// Of its value.
+    /// The place of the value.
     pub(crate) loc: Loc,
     /// Nothing where it is in error, which is reported.
     pub(crate) value: Option<i64>,
@@ -106,7 +106,7 @@ pub(crate) struct TreeJoint {
     pub(crate) name: &'static str,
     pub(crate) spatial: bool,
     pub(crate) coordinates: &'static [&'static str],
-    /// From the first body to the second.
+    /// The steps from the first body to the second.
     pub(crate) steps: &'static [Step],
 }
 
@@ -179,7 +179,7 @@ pub(crate) fn indexed<T: std::fmt::Display>(name: impl std::fmt::Display, indice
 
 /// A parameter or coordinate.
 pub(crate) struct Element {
-    /// As written: `x[3]`, `th1`.
+    /// The name as written: `x[3]`, `th1`.
     pub(crate) name: String,
     pub(crate) family: usize,
     /// Indices within the family, none for a scalar.
@@ -191,7 +191,7 @@ pub(crate) struct Element {
 }
 
 impl Element {
-    /// Its place in a family of this `shape`.
+    /// The place of the element in a family of this `shape`.
     pub(crate) fn place(&self, shape: &[usize]) -> usize {
         let indices = self.indices.iter().zip(shape);
         indices.fold(0, |place, (index, size)| place * size + index)
@@ -203,7 +203,7 @@ pub(crate) struct Preset {
     pub(crate) value: Expr,
     /// The loop variables that it was declared under.
     pub(crate) variables: Vec<Variable>,
-    /// Of what it is declared for.
+    /// The shape of what the default is declared for.
     pub(crate) shape: Vec<usize>,
 }
 

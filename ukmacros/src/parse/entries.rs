@@ -439,7 +439,7 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
     })
 }
 
-/// Of `x = 1.0 [y, z] near 2.0`, which is read as `1.0[y, z]`.
+/// The error for `x = 1.0 [y, z] near 2.0`, which is read as `1.0[y, z]`.
 fn indexed_by_the_next(word: impl std::fmt::Display, span: proc_macro2::Span) -> syn::Error {
     let message = format!(
         "what stands before `{word}` is read as an index of the entry before it; put `,` between them"

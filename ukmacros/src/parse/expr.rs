@@ -65,7 +65,7 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// From Rust's range expression; both ends are needed.
+    /// Makes a range of Rust's range expression; both ends are needed.
     pub(crate) fn convert(range: syn::Expr, diag: &Diagnostics) -> Option<Self> {
         let loc = location(&range);
         let syn::Expr::Range(r) = range else {
@@ -115,7 +115,7 @@ macro_rules! parts {
 }
 
 impl Expr {
-    /// From Rust's expression; what has no meaning here is reported and becomes [`ExprKind::Error`].
+    /// Makes an expression of Rust's; what has no meaning here is reported and becomes [`ExprKind::Error`].
     pub(crate) fn convert(e: syn::Expr, diag: &Diagnostics) -> Self {
         let loc = location(&e);
         let kind = match e {

@@ -13,7 +13,7 @@ pub(crate) struct Declaration {
     pub(crate) runtime: Option<TokenStream>,
     /// `#[allow(…)]` of what the declaration becomes, as written.
     pub(crate) lints: TokenStream,
-    /// It may be a part of others: `#[ukcore(part)]`.
+    /// Whether the declaration may be a part of others: `#[ukcore(part)]`.
     pub(crate) part: bool,
     /// There are units in it, or in a part of it.
     pub(crate) units: bool,
@@ -86,9 +86,9 @@ pub(crate) struct Key {
     pub(crate) indices: Vec<Expr>,
     /// What follows dots, with indices.
     pub(crate) fields: Vec<(Ident, Vec<Expr>)>,
-    /// Where what it declares has one: `s [m]`.
+    /// The unit, where what the key declares has one: `s [m]`.
     pub(crate) measure: Option<Measure>,
-    /// From the name to the last token.
+    /// The range from the name to the last token.
     pub(crate) loc: Loc,
 }
 
@@ -130,7 +130,7 @@ pub(crate) struct Body {
 #[derive(Clone)]
 pub(crate) struct PartUse {
     pub(crate) key: Key,
-    /// Where its type is, and what it is called there.
+    /// The place of the part's type, and what it is called there.
     pub(crate) path: TokenStream,
     pub(crate) name: Ident,
     /// Parameters with their values.
@@ -144,7 +144,7 @@ pub(crate) struct Merged {
     pub(crate) shown: BTreeMap<String, String>,
     /// Parts by their names, with the indices of their members.
     pub(crate) families: BTreeMap<String, Vec<Vec<i64>>>,
-    /// Where each is declared, and its name.
+    /// The place where each part is declared, and its name.
     pub(crate) places: Vec<(Loc, String)>,
     /// There is an error in one, which is told where that is declared.
     pub(crate) faulty: bool,
@@ -159,7 +159,7 @@ pub(crate) struct Let {
 
 /// What stands for a parameter of a part.
 pub(crate) struct Given {
-    /// Its size, which is declared where the part is.
+    /// The size of the parameter, which is declared where the part is.
     pub(crate) sizes: Vec<Expr>,
     /// The default that it has there.
     pub(crate) default: Expr,
@@ -193,7 +193,7 @@ pub(crate) enum Applied {
 pub(crate) struct Equation {
     pub(crate) key: Key,
     pub(crate) lhs: Expr,
-    /// Of a joint, 0 if it is left out.
+    /// The right-hand side; of a joint, 0 if it is left out.
     pub(crate) rhs: Option<Expr>,
 }
 
@@ -220,7 +220,7 @@ pub(crate) struct Guess {
     pub(crate) keys: Vec<Key>,
     /// Whether brackets are written, so that the value is a vector of as many.
     pub(crate) vector: bool,
-    /// Of a velocity, not of a coordinate.
+    /// Whether the guess is of a velocity, not of a coordinate.
     pub(crate) rate: bool,
     /// Held, not only near.
     pub(crate) held: bool,

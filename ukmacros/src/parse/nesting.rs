@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 /// Deeper nesting is refused. Parsing takes some 10 kB of stack a level where it is not optimised; compilers have 8 MB, test threads 2.
 const MAX_NESTING: usize = 100;
 
-/// Where `tokens` are nested too deeply, if they are.
+/// The place where `tokens` are nested too deeply, if they are.
 pub(super) fn too_deep(tokens: &TokenStream) -> Option<Span> {
     level(tokens, 0)
 }
@@ -40,7 +40,7 @@ impl Open {
     }
 }
 
-/// As [`too_deep`], for tokens inside of `depth` others.
+/// Looks as [`too_deep`] does, at tokens inside of `depth` others.
 fn level(tokens: &TokenStream, depth: usize) -> Option<Span> {
     let mut open = Open::default();
     // Whether the token before ends an operand, and whether it is the `#` of an attribute or the `'` of a lifetime.

@@ -9,7 +9,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 #[derive(Clone)]
 pub(crate) struct Known {
     path: String,
-    /// It is a part.
+    /// Whether the declaration is a part.
     pub(crate) is_part: bool,
     /// There is an error in it, which is told.
     pub(crate) faulty: bool,
@@ -22,7 +22,7 @@ pub(crate) struct Known {
 #[derive(Clone, Default)]
 pub(crate) struct Table {
     known: Vec<Known>,
-    /// As they came.
+    /// The tokens as they came.
     pub(crate) tokens: TokenStream,
 }
 

@@ -55,7 +55,8 @@ struct Marking<'d> {
 }
 
 impl Marking<'_> {
-    /// As [`mark`]. Groups without units stay as they are, since the spans of their delimiters do not survive another group.
+    /// Marks units as [`mark`] does. Groups without units stay as they are, since the spans of their delimiters do not survive another
+    /// group.
     fn level(&mut self, tokens: &TokenStream) -> Option<TokenStream> {
         let outside = self.integers.len();
         let (mut before, mut changed, mut bars) = (Before::Other, false, false);

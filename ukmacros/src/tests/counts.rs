@@ -137,7 +137,7 @@ fn phases_of_a_gait_cost_one_sine() {
     assert_eq!(functions(moves), [2, 2]);
 }
 
-/// By hand, in the null space and without a check, some 75 for each top.
+/// Coupled four-bars cost, by hand, in the null space and without a check, some 75 for each top.
 #[test]
 fn coupled_four_bars_cost_what_their_null_space_costs() {
     let [twenty, forty] = ["20", "40"].map(|n| {

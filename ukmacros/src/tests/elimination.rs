@@ -61,13 +61,13 @@ struct Tally {
     solved: usize,
     refused: usize,
     without: usize,
-    /// With the velocities that T is written in as unknowns.
+    /// Solved with the velocities that T is written in as unknowns.
     lifted: usize,
-    /// With coordinates turned two by two.
+    /// Solved with coordinates turned two by two.
     rotated: usize,
-    /// With rates of turning for quaternions.
+    /// Solved with rates of turning for quaternions.
     turned: usize,
-    /// With joints solved for such rates.
+    /// Solved with joints solved for such rates.
     joints: usize,
 }
 

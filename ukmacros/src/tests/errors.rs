@@ -143,7 +143,7 @@ fn errors_as_they_are_shown() {
     );
 }
 
-/// Where `«` and `»` stand, and the source without them.
+/// The places where `«` and `»` stand, and the source without them.
 fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
     let (mut source, mut spans, mut open) = (String::new(), Vec::new(), Vec::new());
     for c in marked.chars() {

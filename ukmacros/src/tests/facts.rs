@@ -44,7 +44,7 @@ fn angles_are_what_sines_are_taken_of() {
     }
 }
 
-/// Where units are declared these tell, whatever the factor is: a wave along x, gears.
+/// Units tell of angles where they are declared, whatever the factor is: a wave along x, gears.
 #[test]
 fn angles_are_what_units_say() {
     let source = "pub T { params { k = 2.0 [1/m], ratio = 3.0 } coords { x [m], th [rad], u } mass { x: 1.0 [kg], th: 1.0 [kg m^2], u: 1.0 [kg m^2] }

@@ -17,7 +17,7 @@ pub(super) fn check(short: &str, long: &str) {
     assert!(code(short) == code(long), "{short}\nis not\n{long}");
 }
 
-/// As [`check`], of the `force` on x in coordinates x, y, z.
+/// Checks as [`check`] does, of the `force` on x in coordinates x, y, z.
 #[track_caller]
 fn check_force(short: &str, long: &str) {
     let forced = |force: &str| {

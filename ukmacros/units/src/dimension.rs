@@ -115,7 +115,7 @@ impl Dimension {
     }
 }
 
-/// In units of mechanics: `m/s^2`, `N`, `kg m^2`; a plain number in words.
+/// Writes the dimension in units of mechanics: `m/s^2`, `N`, `kg m^2`; a plain number in words.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if *self == Dimension::NUMBER {

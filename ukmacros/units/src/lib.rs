@@ -24,7 +24,7 @@ pub struct Unit {
 struct Factor {
     prefix: Prefix,
     base: &'static Base,
-    /// In twelfths.
+    /// The power of the factor, in twelfths.
     power: i32,
 }
 
@@ -160,7 +160,7 @@ impl Unit {
         self.scale() == (1.0, 1.0, 0)
     }
 
-    /// Its value in kg, m, s and rad: a quotient, and a power of ten in twelfths.
+    /// The value of the unit in kg, m, s and rad: a quotient, and a power of ten in twelfths.
     fn scale(&self) -> (f64, f64, i32) {
         let (mut up, mut down, mut decimals) = (1.0, 1.0, 0);
         for Factor {
@@ -200,7 +200,7 @@ impl Unit {
     }
 }
 
-/// As it is written, without regard to spaces and signs; nothing for a number.
+/// Writes the unit as it is written, without regard to spaces and signs; nothing for a number.
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors = self.factors.iter();

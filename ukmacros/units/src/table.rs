@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 #[derive(Debug, PartialEq)]
 pub(crate) struct Base {
     pub(crate) name: &'static str,
-    /// Its value in kg, m, s and rad is 10^decimals up/down.
+    /// The unit's value in kg, m, s and rad is 10^decimals up/down.
     pub(crate) up: f64,
     pub(crate) down: f64,
     pub(crate) decimals: i32,

@@ -214,8 +214,8 @@ impl Passage {
 }
 
 impl Driver<'_> {
-    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is planned already, as it
-    /// has a `goal`.
+    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is planned already, as
+    /// it has a `goal`.
     pub(super) fn approach(&mut self, goal: Option<&Goal>) {
         self.cut = goal.and_then(|goal| goal.cut);
         let Equations {

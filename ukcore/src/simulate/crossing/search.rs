@@ -438,8 +438,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// By how much a function with these second derivatives by k directions, among the first numbers of `second`, and these slopes, negative,
-/// among those of `down`, differs where it is critical from what it is: not quite where others are that vanish with it.
+/// The amount by which a function with these second derivatives by k directions, among the first numbers of `second`, and these slopes,
+/// negative, among those of `down`, differs where it is critical from what it is: not quite where others are that vanish with it.
 fn least(k: usize, second: &[f64], down: &[f64], largest: f64) -> f64 {
     let mut system = Decomposition::new(k, k);
     system.load(k).copy_from_slice(&second[..k * k]);
