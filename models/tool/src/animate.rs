@@ -56,7 +56,7 @@ const MOST_PICTURES: usize = 100_000;
 #[derive(Serialize)]
 struct Data {
     dimension: usize,
-    /// Of each its kind, how many numbers it has, and what it says.
+    /// The kind of each shape, how many numbers it has, and what it says.
     shapes: Vec<Value>,
     /// J, where the declaration has units.
     energy_unit: &'static str,
@@ -71,7 +71,7 @@ struct Shown {
     t: Vec<f64>,
     pictures: Vec<Vec<f32>>,
     energy: Vec<f64>,
-    /// Of each picture the largest |φ| and |φ̇|; nothing without constraints.
+    /// The largest |φ| and |φ̇| of each picture; nothing without constraints.
     residual: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ struct Frame {
 }
 
 impl Film {
-    /// Of a mechanism, called by what distinguishes it from those beside it.
+    /// The film of a mechanism, called by what distinguishes it from those beside it.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a mechanism without a picture.
@@ -223,7 +223,7 @@ fn kind(kind: ShapeKind) -> &'static str {
     }
 }
 
-/// From where, how, and with which parameters.
+/// Says from where a motion was computed, how, and with which parameters.
 pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = ready.mechanism.spec().params.iter();
     let parameters = parameters.zip(ready.mechanism.parameters());

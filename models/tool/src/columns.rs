@@ -16,7 +16,7 @@ pub(crate) struct Column {
     source: Source,
 }
 
-/// Where a number comes from.
+/// The source of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Source {
     Time,
@@ -37,7 +37,7 @@ impl Column {
         }
     }
 
-    /// Its name, with the unit behind where this is known.
+    /// The name of the column, with the unit behind where this is known.
     pub(crate) fn label(&self) -> String {
         labelled(&self.name, &self.unit)
     }

@@ -53,7 +53,7 @@ impl<T> Thinned<T> {
         }
     }
 
-    /// Those kept, and the last one.
+    /// The items that were kept, and the last one.
     pub(crate) fn finish(mut self) -> Vec<T> {
         self.items.extend(self.last);
         self.items
@@ -66,7 +66,7 @@ pub(crate) struct Curves {
     /// Horizontal and vertical quantities, of each curve one.
     over: Vec<Column>,
     of: Vec<Column>,
-    /// Over what a curve is drawn that does not say so.
+    /// The quantity over which a curve is drawn that does not say so.
     usual: String,
     rows: Thinned<(Vec<f64>, Vec<f64>)>,
 }

@@ -16,7 +16,7 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 static CAUGHT: OnceLock<Result<(), String>> = OnceLock::new();
 
 impl Interrupt {
-    /// From here on the first signal is noted, and a second one ends the program at once: nobody has to wait for a step that does not end.
+    /// Notes the first signal from here on, and lets a second one end the program at once: nobody has to wait for a step that does not end.
     ///
     /// # Errors
     /// [`Failure::Failed`] if the system does not let the signal be caught.

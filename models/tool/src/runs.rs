@@ -145,7 +145,7 @@ impl Runs {
 /// Values as they are written: `1,2,5`, or from the first to the last in steps.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// Those listed.
+    /// The values listed.
     List(Vec<Quantity>),
     /// `first..last:step`.
     Range([Quantity; 3]),

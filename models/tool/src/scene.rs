@@ -262,7 +262,7 @@ struct Setting {
     /// An option of the start, not a parameter.
     option: bool,
     default: f64,
-    /// Its unit in SI, and as declared.
+    /// The unit in SI, and as declared.
     units: [&'static str; 2],
 }
 

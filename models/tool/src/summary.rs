@@ -15,7 +15,7 @@ use crate::scene::Ready;
 /// What a run was, what came out and what it cost. SI units.
 pub(crate) struct Summary<'a> {
     pub(crate) trajectory: &'a Trajectory,
-    /// Its samples.
+    /// What was measured of the samples.
     pub(crate) measured: &'a ukcore::simulate::Drift,
     /// The first of them at which an output is not finite.
     pub(crate) broken: Option<&'a State>,

@@ -379,7 +379,7 @@ fn line(fields: &[String]) -> Result<Vec<u8>, Failure> {
 struct Table {
     path: PathBuf,
     file: File,
-    /// Its rows, each by the number of its member.
+    /// The rows of the table, each by the number of its member.
     rows: HashMap<usize, Vec<String>>,
 }
 

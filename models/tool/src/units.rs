@@ -37,7 +37,7 @@ impl Quantity {
         }
     }
 
-    /// This one, a bare number, in the unit of `others` if they have one and the same; 0 has any.
+    /// The quantity, a bare number, in the unit of `others` if they have one and the same; 0 has any.
     pub(crate) fn in_unit_of(self, others: &[Quantity]) -> Self {
         let mut units = others.iter().filter(|q| !q.is_zero()).map(|q| &q.unit);
         let unit = units.next().filter(|unit| units.all(|u| u == *unit));

@@ -9,10 +9,10 @@ use ukcore::{Assembled, assemble_with_alternatives, branches};
 use crate::failure::Failure;
 use crate::scene::{Ready, Start};
 
-/// Where other ways are looked for.
+/// The places where other ways are looked for.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Look {
-    /// Where assembly compares them.
+    /// The parts where assembly compares such ways.
     AtParts,
     /// All around the guess, too, where coordinates stay free: dozens of searches.
     Everywhere,

@@ -13,7 +13,7 @@ const IN_BOTH: [&str; 4] = ["dop853", "dopri5", "radau5", "rattle"];
 const BY_TIME: [&str; 2] = ["dop853-general", "dop853-kkt"];
 const BY_EVALUATIONS: [&str; 2] = ["dop853-none", "dop853-baumgarte20"];
 
-/// Both pictures of a motion: file names without ending, and SVG.
+/// The two pictures of a motion: file names without ending, and SVG.
 pub(super) fn of(study: &Study) -> Result<[(String, String); 2], Failure> {
     let time = chart(study, &BY_TIME, TIME, |f| f.seconds);
     let evaluations = chart(study, &BY_EVALUATIONS, EVALUATIONS, |f| {

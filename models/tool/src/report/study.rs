@@ -7,7 +7,7 @@ use crate::drift::Drift;
 /// One motion of one model under all combinations.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Study {
-    /// Its name: the model, and the end where a model has several.
+    /// The name of the study: the model, and the end where a model has several.
     pub(super) name: String,
     pub(super) model: String,
     /// The model in one line.
@@ -31,7 +31,7 @@ pub(super) struct Study {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Source {
     pub(super) source: String,
-    /// Its own error, scaled: none below is claimed.
+    /// The source's own error, scaled: none below is claimed.
     pub(super) floor: f64,
     /// Times at which it is known, s.
     pub(super) times: Vec<f64>,
@@ -104,7 +104,7 @@ pub(super) struct LongRun {
     pub(super) variant: String,
     /// Tolerance, or step in s.
     pub(super) knob: f64,
-    /// Its duration, s.
+    /// The duration of the run, s.
     pub(super) span: f64,
     /// Time that it took, once, s.
     pub(super) seconds: Option<f64>,

@@ -46,7 +46,7 @@ pub(super) struct Distance {
 }
 
 impl Truth {
-    /// From what is shipped with the model.
+    /// The truth that is shipped with the model.
     pub(super) fn shipped(spec: &Spec, start: &State, reference: &Reference) -> Self {
         let states: Vec<Vec<f64>> = reference.states.iter().map(stacked).collect();
         let scale = scale(spec, start, &states);
@@ -88,8 +88,8 @@ impl Truth {
         Ok(computed)
     }
 
-    /// By DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another method differs is
-    /// told.
+    /// The truth computed by DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another
+    /// method differs is told.
     pub(super) fn computed(
         mechanism: &Prepared,
         start: &State,

@@ -25,9 +25,9 @@ pub(super) enum Engine {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Variant {
-    /// Its name in JSON and CSV.
+    /// The variant's name in JSON and CSV.
     pub(super) name: &'static str,
-    /// Its name on the page.
+    /// The variant's name on the page.
     pub(super) label: &'static str,
     pub(super) engine: Engine,
     /// The formula: [`Formula::Auto`] is the straight line where there is one; none is the rank-revealing solve of eq. 13, or of eq. 19

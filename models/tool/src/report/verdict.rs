@@ -83,7 +83,7 @@ pub(super) struct Choice {
 pub(super) enum Among {
     /// All of them.
     All,
-    /// Those that keep the constraints to rounding: by projection, or by steps that end on them.
+    /// The variants that keep the constraints to rounding: by projection, or by steps that end on them.
     Kept,
 }
 

@@ -186,7 +186,7 @@ fn short(value: f64) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Class {
-    /// As exact as at ordinary values.
+    /// The result is as exact as at ordinary values.
     Accurate,
     /// Less exact, but within the bound of the case.
     Degraded,
@@ -287,7 +287,7 @@ impl Row<'_> {
         first.zip(last)
     }
 
-    /// That range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
+    /// The range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
     pub(super) fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
         let Some((first, last)) = self.range(good) else {
             return "–".to_owned();

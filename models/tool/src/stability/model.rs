@@ -261,7 +261,8 @@ impl Motion<'_> {
         Ok(states(&effort.run(simulation, until)?))
     }
 
-    /// By how much the motion magnifies a small change at `place`, a state of it: its states without one are known, with their sizes.
+    /// The factor by which the motion magnifies a small change at `place`, a state of it: its states without one are known, with their
+    /// sizes.
     fn magnified(
         &self,
         way: Way,

@@ -32,11 +32,11 @@ pub(super) struct ChainRow {
     pub(super) x0: f64,
     /// Greatest fall of the tip (its first turning point), m.
     pub(super) h_max: f64,
-    /// Its time, s.
+    /// The time of the greatest fall, s.
     pub(super) t_max: f64,
     /// Least ÿ1 of the run, m/s².
     pub(super) peak: f64,
-    /// Its time, s.
+    /// The time of the least ÿ1, s.
     pub(super) t_peak: f64,
     /// ½ g t_max², m.
     pub(super) free_fall: f64,
@@ -46,7 +46,7 @@ pub(super) struct ChainRow {
     pub(super) lead: f64,
     /// Greatest ÿ1 before t_max, m/s².
     pub(super) highest: f64,
-    /// Its time, s.
+    /// The time of the greatest ÿ1 before t_max, s.
     pub(super) t_highest: f64,
     /// Last time before the turn at which ÿ1 > g, s.
     pub(super) t_above_g: f64,
@@ -56,7 +56,7 @@ pub(super) struct ChainRow {
     pub(super) part_above_g: f64,
     /// Greatest downward pull of gravity and upward pull of the chain compared: (g − peak)/g, in weights of a particle.
     pub(super) pull: f64,
-    /// As printed.
+    /// The row of the paper's table, as printed.
     #[serde(serialize_with = "printed")]
     pub(super) paper: TableRow,
 }

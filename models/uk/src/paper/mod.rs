@@ -29,7 +29,7 @@ use motion::RunRow;
 /// a hundredfold until its tip turns.
 const TOLERANCE: f64 = 1e-10;
 
-/// Where the report goes if nothing is said.
+/// The directory that the report goes to if nothing is said.
 pub(crate) const OUT: &str = "out/paper";
 
 /// Every number on the page.
@@ -40,7 +40,7 @@ struct Paper<'a> {
     method: &'static str,
     tolerance: f64,
     uchain: Vec<ChainRow>,
-    /// Not the paper's start: the chain hanging in equilibrium before its tip is let go.
+    /// The chain hanging in equilibrium before its tip is let go, which is not the paper's start.
     uchain_catenary: ChainRow,
     fish: Vec<FishRow>,
     claims: Vec<Claim>,

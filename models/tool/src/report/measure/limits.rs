@@ -10,8 +10,8 @@ use crate::report::truth::stacked;
 
 /// Tolerance of the runs that show what a change of the start makes at the end.
 const FINE: f64 = 1e-12;
-/// That change, as a part of the size of each number: far above the errors of these runs, and small enough for the end to follow in
-/// proportion.
+/// The change of the start, as a part of the size of each number: far above the errors of these runs, and small enough for the end to
+/// follow in proportion.
 const NUDGE: f64 = 1e-8;
 /// So many directions are tried: the worst one is then not missed by much.
 const DIRECTIONS: usize = 8;

@@ -27,7 +27,7 @@ const REPEATS: f64 = 10.0;
 const MOST: usize = 21;
 /// Repeats at least, of runs shorter than [`LONG`].
 const LEAST: usize = 3;
-/// From here on a run is long enough for its time to be told from the first one, s.
+/// The time, s, from which on a run is long enough for its time to be told from the first one.
 const LONG: f64 = 0.25;
 /// Shorter runs are timed several in a row: far above the resolution of the clock, and the machine's caches know the way, s.
 const BATCH: f64 = 5e-4;

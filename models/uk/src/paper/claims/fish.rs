@@ -97,7 +97,7 @@ fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Told> {
     ]
 }
 
-/// By how much the mean speed of each of the seconds 2, 3 and 4 exceeds that of the second before.
+/// The amounts by which the mean speed of each of the seconds 2, 3 and 4 exceeds that of the second before.
 fn gains(row: &FishRow) -> Vec<f64> {
     let speeds = &row.mean_speed_by_second;
     speeds.windows(2).take(3).map(|w| w[0] - w[1]).collect()

@@ -39,7 +39,7 @@ impl Verdict {
         }
     }
 
-    /// Of what is missed by this part, where so much of it is admitted.
+    /// The verdict on what is missed by this part, where so much of it is admitted.
     fn missed(part: f64, admitted: f64) -> Self {
         if part <= admitted {
             Verdict::Holds
@@ -78,7 +78,7 @@ pub(super) struct Claim {
     pub(super) verdict: Verdict,
 }
 
-/// Of a claim all but its case, in the same order.
+/// A claim but for its case, in the same order.
 type Told = (&'static str, &'static str, String, Vec<f64>, Verdict);
 
 /// All claims. The rows of the chain are in order of x0.
