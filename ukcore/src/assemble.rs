@@ -224,7 +224,7 @@ impl Held {
 /// [`assemble`] with coordinates held by their positions.
 ///
 /// # Errors
-/// Those of [`assemble`], but for names.
+/// What [`assemble`] reports, but for names.
 pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<State, Error> {
     guess.check(mech)?;
     diagnose::inertias(mech)?;

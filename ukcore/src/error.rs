@@ -112,10 +112,10 @@ pub enum Error {
         lost(constraints)
     )]
     Singular {
-        /// Their names.
+        /// The names of the constraints.
         constraints: Vec<String>,
     },
-    /// The names of the constraints.
+    /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps, or a path with a kink.
     #[error(
         "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity, \
          nor a path have a kink: smooth it, or end the run there and start another behind it",

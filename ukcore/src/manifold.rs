@@ -152,7 +152,7 @@ impl Projector {
     /// nonlinear in q̇. Allocates nothing unless it fails; then `v` is left as it was.
     ///
     /// # Errors
-    /// As [`Projector::position`].
+    /// What [`Projector::position`] reports.
     pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
         diagnose::check_lengths(&self.mechanism, q, v)?;
         self.measure(t, q, v);
@@ -183,7 +183,7 @@ impl Projector {
     /// the projection and behind it differ by `too_much` there, or no projection is found, the state is interpolated `again`, and settles.
     ///
     /// # Errors
-    /// As [`Projector::position`].
+    /// What [`Projector::position`] reports.
     pub(crate) fn interpolated(
         &mut self,
         t: f64,

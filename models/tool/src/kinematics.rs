@@ -126,7 +126,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
 /// Postures and limits, and of each posture the efforts and powers asked for.
 struct Found {
     swept: Kinematics,
-    /// Their names and units.
+    /// The names and units of the efforts and powers.
     efforts: Vec<(String, String)>,
     values: Vec<Vec<f64>>,
 }

@@ -207,7 +207,7 @@ pub(crate) trait Problem {
     }
     /// The g of all switches at a state.
     fn switching(&mut self, _at: Sample<'_>, _values: &mut [f64]) {}
-    /// Their derivatives by time at a state with these accelerations.
+    /// The derivatives of the g of all switches by time at a state with these accelerations.
     fn switching_rate(&mut self, _at: Sample<'_>, _acceleration: &[f64], _values: &mut [f64]) {}
     /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.
     fn set_branch(&mut self, _k: usize, _branch: Branch) {}

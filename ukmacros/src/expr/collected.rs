@@ -12,7 +12,7 @@ const FEW: usize = 16;
 #[derive(Default)]
 pub(super) struct Collected<T> {
     pub(super) list: Vec<(Id, T)>,
-    /// Their places; nothing as long as they are few.
+    /// The places of the items; nothing as long as they are few.
     place: Map<Id, usize>,
 }
 
