@@ -355,7 +355,7 @@ fn an_arm_of_12_hinges_accelerates_alike_in_both_sets_of_coordinates() {
 }
 
 ukcore::multibody! {
-    /// The four-bar linkage of the README: two bars hang on each other, one on the other support, and a pin closes the loop.
+    /// The four-bar linkage of docs/planar.md: two bars hang on each other, one on the other support, and a pin closes the loop.
     FourBar {
         params { l[3] = [0.5, 2.0, 1.5], m = 1.0, span = 2.0, k = 3.0, g = 9.81 }
         bodies { for i in 0..3 { planar bar[i] { mass: m, inertia: m * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }

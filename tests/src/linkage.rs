@@ -1,7 +1,7 @@
 //! The linkage that many tests look at.
 
 ukcore::multibody! {
-    /// The four-bar linkage of the README, of bodies with coordinates of their own, with its reactions.
+    /// The four-bar linkage of docs/planar.md, of bodies with coordinates of their own, with its reactions.
     pub FourBar {
         params { l[3] = [0.5, 2.0, 1.5], m[3] = 1.0, span = 2.0, k = 3.0, fold = 1.0, g = 9.81 }
         bodies { for i in 0..3 { planar bar[i] { mass: m[i], inertia: m[i] * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
