@@ -30,11 +30,12 @@ pub struct Equilibrium {
 /// What becomes of small displacements from a rest position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stability {
-    /// All are driven back, and no vibration grows.
+    /// All small displacements are driven back, and no vibration grows.
     Stable,
-    /// Some cost nothing, as that of a wheel on a plane; none grows faster than in proportion to time, as far as a linear motion tells.
+    /// Some small displacements cost nothing, as that of a wheel on a plane; none grows faster than in proportion to time, as far as a
+    /// linear motion tells.
     Neutral,
-    /// Some are driven on, or a vibration grows.
+    /// Some small displacements are driven on, or a vibration grows.
     Unstable,
 }
 

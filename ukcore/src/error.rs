@@ -17,9 +17,9 @@ pub enum Error {
     Underdetermined {
         /// Names of the coordinates that move in the undetermined directions.
         coordinates: Vec<String>,
-        /// rank [M | Aᵀ].
+        /// The rank of [M | Aᵀ].
         rank: usize,
-        /// n.
+        /// The number n of coordinates, which that rank has to be.
         needed: usize,
     },
     /// A q̈ = b has no solution: these constraints contradict each other.
@@ -38,7 +38,7 @@ pub enum Error {
         named(constraints)
     )]
     OffConstraint {
-        /// `"position"` or `"velocity"`.
+        /// The level of the constraints: `"position"` or `"velocity"`.
         level: &'static str,
         /// Names of the constraints, with their residual.
         constraints: Vec<(String, f64)>,
@@ -50,7 +50,7 @@ pub enum Error {
         remedy(held)
     )]
     NotAssembled {
-        /// `"position"` or `"velocity"`.
+        /// The level of the constraints: `"position"` or `"velocity"`.
         level: &'static str,
         /// Names of the constraints that are not met, with the residual that remains.
         constraints: Vec<(String, f64)>,
@@ -60,7 +60,7 @@ pub enum Error {
     /// A value is NaN or infinite.
     #[error("not a finite number: {}", what.join(", "))]
     NonFinite {
-        /// What: `"parameter m"`, `"coordinate x[3]"`, `"force on th1"`, `"constraint link[2]"`.
+        /// What is not finite: `"parameter m"`, `"coordinate x[3]"`, `"force on th1"`, `"constraint link[2]"`.
         what: Vec<String>,
     },
     /// M has a negative eigenvalue, or is not what a mass matrix can be.
@@ -75,9 +75,9 @@ pub enum Error {
     /// A name that is not there.
     #[error("no {kind} is called `{name}`{}", alternatives(nearest.as_deref(), known))]
     UnknownName {
-        /// `"parameter"`, `"coordinate"`, `"model"`, ….
+        /// What the name was to be of: `"parameter"`, `"coordinate"`, `"model"`, ….
         kind: &'static str,
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// The nearest name that exists.
         nearest: Option<String>,
@@ -87,7 +87,7 @@ pub enum Error {
     /// A vector of the wrong length.
     #[error("`{what}` has length {found}, but {expected} is needed")]
     WrongLength {
-        /// Which vector.
+        /// The vector whose length is wrong, by its letter, such as `"q"`.
         what: &'static str,
         /// The vector's length as given.
         found: usize,
@@ -97,7 +97,7 @@ pub enum Error {
     /// A setting outside of its range.
     #[error("`{what}` {reason}")]
     InvalidSetting {
-        /// Which setting.
+        /// The setting that is outside of its range.
         what: &'static str,
         /// What is wrong and what is allowed.
         reason: String,
@@ -122,7 +122,7 @@ pub enum Error {
         named(constraints)
     )]
     Jump {
-        /// `"position"` or `"velocity"`.
+        /// The level of the constraints: `"position"` or `"velocity"`.
         level: &'static str,
         /// Names of the constraints, with their residual after the shortest step.
         constraints: Vec<(String, f64)>,
@@ -158,7 +158,7 @@ pub enum Error {
         coordinate: String,
         /// The estimated error of the step, as a share of the motion.
         share: f64,
-        /// Rounding of the time, where that is most of it.
+        /// The rounding of the time, where most of the rounding is of it.
         time: Option<f64>,
     },
     /// Steps became so small that the time does not tell their ends apart: so late it is known no better.
@@ -167,9 +167,9 @@ pub enum Error {
          or loosen the tolerance"
     )]
     TooLate {
-        /// Step size.
+        /// The size of the last step.
         step: f64,
-        /// Rounding of the time.
+        /// The rounding of the time.
         rounding: f64,
     },
     /// The number of steps allowed was used up.
@@ -178,7 +178,7 @@ pub enum Error {
          `Method::Radau5` in place of an explicit method"
     )]
     TooManySteps {
-        /// The number.
+        /// The number of steps that were allowed.
         steps: usize,
     },
     /// Steps became tiny about a place where sign, abs, min or max switch or the direction v/|v| of a vector turns, as where dry friction
@@ -209,13 +209,13 @@ pub enum Error {
     /// Another error that arose during integration, with the time and state where it did.
     #[error("at t = {}: {source}", full(*t))]
     At {
-        /// Time.
+        /// The time at which the error arose.
         t: f64,
-        /// Coordinates.
+        /// The coordinates at that time.
         q: Vec<f64>,
-        /// Velocities.
+        /// The velocities at that time.
         v: Vec<f64>,
-        /// What happened there.
+        /// The error that arose there.
         source: Box<Error>,
     },
 }

@@ -39,9 +39,9 @@ pub enum Stabilisation {
     /// Projection of q and q̇ after each accepted step.
     #[default]
     Projection,
-    /// Feedback in b.
+    /// The residuals of the constraints are fed back in b.
     Baumgarte(Baumgarte),
-    /// Nothing: A q̈ = b alone.
+    /// Nothing is done against drift: the motion follows A q̈ = b alone.
     None,
 }
 

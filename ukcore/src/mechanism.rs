@@ -149,7 +149,7 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
 /// abs, sign, min or max goes on in the branch it is held in. Energies and outputs follow their switches always.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Branch {
-    /// The one that the sign of the switching function says.
+    /// The branch that the sign of the switching function says.
     #[default]
     Followed,
     /// The branch of negative values of the switching function.

@@ -227,9 +227,9 @@ pub struct ConstraintSpec {
 /// Kind of a constraint (eqs. 3 and 4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstraintKind {
-    /// φ(q, t) = 0, differentiated twice.
+    /// The constraint is φ(q, t) = 0, and is differentiated twice.
     Holonomic,
-    /// φ(q, q̇, t) = 0, differentiated once.
+    /// The constraint is φ(q, q̇, t) = 0, and is differentiated once.
     Nonholonomic,
 }
 

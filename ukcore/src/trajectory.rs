@@ -63,11 +63,11 @@ pub struct Work {
 pub enum Ending {
     /// The run reached the end time.
     Completed,
-    /// A terminal event.
+    /// A terminal event ended the run.
     Event,
-    /// The closure of [`progress`](crate::Simulation::progress) or [`stream`](crate::Simulation::stream) asked for it.
+    /// The closure of [`progress`](crate::Simulation::progress) or [`stream`](crate::Simulation::stream) asked for the end.
     Interrupted,
-    /// An error, which [`Failure`](crate::Failure) carries.
+    /// An error ended the run, which [`Failure`](crate::Failure) carries.
     #[default]
     Failed,
 }

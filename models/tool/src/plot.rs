@@ -102,11 +102,11 @@ impl Series {
 /// The place of the legend of a [`Chart`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Legend {
-    /// Nowhere.
+    /// There is no legend.
     None,
-    /// Above the frame, in two columns.
+    /// The legend stands above the frame, in two columns.
     Above,
-    /// Within the frame.
+    /// The legend stands within the frame, at this place.
     Within(Place),
 }
 

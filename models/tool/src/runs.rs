@@ -147,7 +147,7 @@ impl Runs {
 pub enum Values {
     /// The values listed.
     List(Vec<Quantity>),
-    /// `first..last:step`.
+    /// The values from the first to the last in steps, as `first..last:step`.
     Range([Quantity; 3]),
 }
 

@@ -31,7 +31,7 @@ pub struct Structure {
     /// The part of the mechanism that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do
     /// not depend on each other; empty where all are one, and where M is not expanded, so that nothing tells.
     pub parts: &'static [usize],
-    /// No explicit time anywhere.
+    /// The equations contain no explicit time.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
     pub nonideal: bool,
@@ -154,7 +154,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// No operation.
+    /// The counts of no operation at all.
     pub const NONE: Operations = Operations {
         additions: 0,
         multiplications: 0,

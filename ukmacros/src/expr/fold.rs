@@ -456,8 +456,8 @@ impl Graph {
         }
     }
 
-    /// The new nodes of those in `order`, operands before users: what `changed` gives for a node, from those before it, or else the node with
-    /// these in their places.
+    /// The new nodes of those in `order`, operands before users: what `changed` gives for a node, from those before it, or else the node
+    /// with these in their places.
     pub(crate) fn rewritten(
         &mut self,
         order: &[Id],
