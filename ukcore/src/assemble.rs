@@ -28,11 +28,11 @@ pub(crate) use search::Search;
 /// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Time t.
+    /// The time t.
     pub t: f64,
-    /// Coordinates q, in the order of [`Spec::coords`](crate::spec::Spec::coords).
+    /// The coordinates q, in the order of [`Spec::coords`](crate::spec::Spec::coords).
     pub q: Vec<f64>,
-    /// Velocities q̇, in the same order.
+    /// The velocities q̇, in the same order.
     pub v: Vec<f64>,
 }
 
@@ -88,9 +88,9 @@ impl State {
 /// How far a state is off the constraints, in the constraints' own units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residuals {
-    /// φ(q, t) of the h holonomic constraints.
+    /// The residuals φ(q, t) of the h holonomic constraints.
     pub position: Vec<f64>,
-    /// φ̇ of the holonomic and φ(q, q̇, t) of the nonholonomic constraints, m values.
+    /// The residuals φ̇ of the holonomic and φ(q, q̇, t) of the nonholonomic constraints, m values.
     pub velocity: Vec<f64>,
 }
 

@@ -30,17 +30,17 @@ const SHARE: f64 = 0.5;
 /// What the constraints of a mechanism amount to at a state: see [`diagnose`]. It prints as sentences.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Time of the state.
+    /// The time of the state.
     pub t: f64,
-    /// Number n of coordinates.
+    /// The number n of coordinates.
     pub coordinates: usize,
-    /// Number m of constraints.
+    /// The number m of constraints.
     pub constraints: usize,
-    /// Rank of A.
+    /// The rank of the constraint Jacobian A.
     pub rank: usize,
-    /// n − rank A: freedoms of motion.
+    /// The degrees of freedom n − rank A, those of motion.
     pub degrees_of_freedom: usize,
-    /// n less the rank of the holonomic rows: freedoms of position, more than those of motion where constraints are nonholonomic.
+    /// n less the rank of the holonomic rows, the freedoms of position: more than those of motion where constraints are nonholonomic.
     pub freedoms_of_position: usize,
     /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis,
     /// and how many of the freedoms of motion these are.

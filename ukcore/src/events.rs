@@ -105,15 +105,15 @@ impl fmt::Debug for Event {
 /// A located event.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventHit {
-    /// Name of the event.
+    /// The name of the event.
     pub name: String,
-    /// Time.
+    /// The time of the zero.
     pub t: f64,
-    /// Coordinates, projected.
+    /// The coordinates there, projected.
     pub q: Vec<f64>,
-    /// Velocities, projected.
+    /// The velocities there, projected.
     pub v: Vec<f64>,
-    /// [`Direction::Rising`] or [`Direction::Falling`].
+    /// The direction of the crossing: [`Direction::Rising`] or [`Direction::Falling`].
     pub direction: Direction,
 }
 

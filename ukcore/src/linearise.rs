@@ -24,15 +24,15 @@ use crate::spec::Spec;
 /// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearisation {
-    /// q̈, n.
+    /// The accelerations q̈, n numbers.
     pub acceleration: Vec<f64>,
-    /// ∂q̈/∂q, n × n.
+    /// The derivatives ∂q̈/∂q by the coordinates, n × n.
     pub by_position: Vec<f64>,
-    /// ∂q̈/∂q̇, n × n.
+    /// The derivatives ∂q̈/∂q̇ by the velocities, n × n.
     pub by_velocity: Vec<f64>,
-    /// ∂q̈/∂(parameters), n × p, order of `SPEC.params`.
+    /// The derivatives ∂q̈/∂(parameters), n × p, in the order of `SPEC.params`.
     pub by_parameter: Vec<f64>,
-    /// ∂q̈/∂t, n.
+    /// The derivatives ∂q̈/∂t by the time, n numbers.
     pub by_time: Vec<f64>,
     names: Vec<String>,
 }

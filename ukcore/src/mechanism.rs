@@ -173,15 +173,15 @@ impl Branch {
 /// Buffers that [`Mechanism::dynamics`] writes to (column-major, zeroed once by the caller).
 #[derive(Debug)]
 pub struct Terms<'a, S> {
-    /// M, n × n (eq. 1).
+    /// The mass matrix M, n × n, both triangles (eq. 1).
     pub mass: &'a mut [S],
-    /// Q, n (eq. 1).
+    /// The generalised force Q, n numbers (eq. 1).
     pub force: &'a mut [S],
-    /// c, n (eq. 8).
+    /// The force c of non-ideal constraints, n numbers (eq. 8).
     pub nonideal: &'a mut [S],
-    /// A, m × n (eq. 5).
+    /// The constraint Jacobian A, m × n (eq. 5).
     pub jacobian: &'a mut [S],
-    /// b, m (eq. 5).
+    /// The right-hand side b of A q̈ = b, m numbers (eq. 5).
     pub rhs: &'a mut [S],
 }
 
@@ -238,17 +238,17 @@ impl<S: Scalar> Evaluated<S> {
     }
 }
 
-/// Kinetic and potential energy.
+/// The kinetic and the potential energy of a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy<S = f64> {
-    /// T, from `kinetic` or as ½ q̇ᵀ M q̇.
+    /// The kinetic energy T, from `kinetic` or as ½ q̇ᵀ M q̇.
     pub kinetic: S,
-    /// V, from `potential`; 0 where none is declared.
+    /// The potential energy V, from `potential`; 0 where none is declared.
     pub potential: S,
 }
 
 impl Energy<f64> {
-    /// T + V.
+    /// The sum T + V of both energies.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential

@@ -233,14 +233,14 @@ float!(f32);
 /// Where a function has no derivative (abs at 0, min at a tie) one of its one-sided ones, or 0, is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dual<S = f64, E = S> {
-    /// The value.
+    /// The value itself.
     pub re: S,
     /// The derivative of the value.
     pub eps: E,
 }
 
 impl<S, E> Dual<S, E> {
-    /// A value and its derivative.
+    /// The number with this value and this derivative.
     pub const fn new(re: S, eps: E) -> Self {
         Dual { re, eps }
     }

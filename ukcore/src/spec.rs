@@ -9,9 +9,9 @@ use crate::error::Error;
 /// Everything known about a mechanism at compile time.
 #[derive(Debug)]
 pub struct Spec {
-    /// Type name.
+    /// The name of the type.
     pub name: &'static str,
-    /// Doc comment of the declaration.
+    /// The doc comment of the declaration.
     pub doc: &'static str,
     /// Parameters, families flattened (`m[0]`, `m[1]`, …).
     pub params: &'static [ParamSpec],
@@ -46,11 +46,11 @@ pub struct Spec {
 /// A parameter.
 #[derive(Debug)]
 pub struct ParamSpec {
-    /// Name as declared.
+    /// The parameter's name as declared.
     pub name: &'static str,
-    /// Doc comment; empty if none.
+    /// The parameter's doc comment; empty if there is none.
     pub doc: &'static str,
-    /// Default value.
+    /// The parameter's default value, in SI where units are declared.
     pub default: f64,
     /// The parameter's unit in SI, such as `"kg m^2"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
@@ -61,9 +61,9 @@ pub struct ParamSpec {
 /// An output.
 #[derive(Debug)]
 pub struct OutputSpec {
-    /// Name as declared.
+    /// The output's name as declared.
     pub name: &'static str,
-    /// Doc comment; empty if none.
+    /// The output's doc comment; empty if there is none.
     pub doc: &'static str,
     /// The unit of its values, as declared: `"deg"` where they are in degrees; empty for a plain number, and where none is declared.
     pub unit: &'static str,
@@ -72,7 +72,7 @@ pub struct OutputSpec {
 /// A start state on offer: declared, or made by a `Model`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartSpec {
-    /// Name on the command line.
+    /// The start's name on the command line.
     pub name: &'static str,
     /// What the start is, in one line.
     pub doc: &'static str,
@@ -96,7 +96,7 @@ impl StartSpec {
 /// An option of a start state. No option is called like a parameter of its model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartOption {
-    /// Name on the command line.
+    /// The option's name on the command line.
     pub name: &'static str,
     /// What the option is, in one line.
     pub doc: &'static str,
@@ -280,13 +280,13 @@ impl Spec {
         equations: Equations::NONE,
     };
 
-    /// Number n of coordinates.
+    /// The number n of coordinates.
     #[must_use]
     pub const fn n(&self) -> usize {
         self.coords.len()
     }
 
-    /// Number m of constraints.
+    /// The number m of constraints.
     #[must_use]
     pub const fn m(&self) -> usize {
         self.constraints.len()

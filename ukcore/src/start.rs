@@ -59,7 +59,7 @@ impl<const N: usize> From<[(&str, f64); N]> for StartOptions {
 /// A start of a model with the values of all its options: what an implementation of `Model::start` begins with.
 #[derive(Debug, Clone)]
 pub struct Chosen {
-    /// The start.
+    /// The start that was chosen.
     pub spec: &'static StartSpec,
     values: Vec<f64>,
 }

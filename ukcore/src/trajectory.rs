@@ -31,10 +31,10 @@ pub enum Record<'a> {
     Event(&'a EventHit),
 }
 
-/// What a run cost.
+/// What a run cost, in steps and evaluations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Accepted steps.
+    /// Steps that were accepted.
     pub steps: usize,
     /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
     pub rejected: usize,

@@ -6,11 +6,11 @@ use crate::error::Error;
 /// A state of a motion: one row of a [`Trajectory`](crate::Trajectory), or what a run has reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<'a> {
-    /// Time.
+    /// The time t.
     pub t: f64,
-    /// Coordinates.
+    /// The coordinates q, in the order of [`Spec::coords`](crate::spec::Spec::coords).
     pub q: &'a [f64],
-    /// Velocities.
+    /// The velocities q̇, in the same order.
     pub v: &'a [f64],
     /// Integrals since the start of the run, in the order of [`Prepared::integrals`](crate::Prepared::integrals); none of a state that
     /// belongs to no run.

@@ -64,10 +64,10 @@ pub type Sloped = Dual<f64, Slopes>;
 pub struct Slopes([f64; Slopes::COUNT]);
 
 impl Slopes {
-    /// How many directions there are.
+    /// The number of directions.
     pub const COUNT: usize = 8;
 
-    /// Derivatives by direction.
+    /// The derivatives that `along` gives for each direction.
     #[must_use]
     pub fn new(along: impl Fn(usize) -> f64) -> Self {
         Slopes(std::array::from_fn(along))
@@ -78,7 +78,7 @@ impl Slopes {
         Slopes::new(|k| f64::from(u8::from(own == first + k)))
     }
 
-    /// The derivative along a direction.
+    /// The derivative along a direction, counted from 0.
     ///
     /// # Panics
     /// If there are not so many.

@@ -23,9 +23,9 @@ use super::Scalar;
 /// | `.` | a | a is what the function returns |
 #[derive(Debug, Clone, Copy)]
 pub struct Tape {
-    /// The constants.
+    /// The constants that instructions name.
     pub constants: &'static [f64],
-    /// The instructions.
+    /// The instructions, one after the other.
     pub code: &'static [u8],
 }
 

@@ -35,9 +35,9 @@ impl fmt::Display for Formula {
 /// Baumgarte's stabilisation: b − 2αφ̇ − β²φ for holonomic, b − αψ for nonholonomic constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Baumgarte {
-    /// α in 1/s.
+    /// The rate α in 1/s.
     pub alpha: f64,
-    /// β in 1/s; β = α is critical damping.
+    /// The rate β in 1/s; β = α is critical damping.
     pub beta: f64,
 }
 
@@ -71,7 +71,7 @@ impl Baumgarte {
 /// Settings of a [`Solver`](super::Solver).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverOptions {
-    /// The formula.
+    /// The formula for the accelerations.
     pub formula: Formula,
     /// Significance up to which a constraint counts as implied by the others (see the [module](crate::solver)); between ε and
     /// [`RANK_CEILING`](super::RANK_CEILING); values outside are moved there.
@@ -101,23 +101,23 @@ pub struct SolverWork {
     pub fallbacks: usize,
 }
 
-/// Everything about one state.
+/// What is known of the motion and its forces at one state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// q̈.
+    /// The accelerations q̈, n numbers.
     pub acceleration: Vec<f64>,
-    /// Qc_id, the force of ideal constraints (eq. 11): does no work in a virtual displacement.
+    /// The force Qc_id of ideal constraints (eq. 11), which does no work in a virtual displacement.
     pub ideal_force: Vec<f64>,
-    /// Qc_nid, the non-ideal part (eq. 12). M q̈ = Q + Qc_id + Qc_nid.
+    /// The non-ideal part Qc_nid of the constraint force (eq. 12), so that M q̈ = Q + Qc_id + Qc_nid.
     pub nonideal_force: Vec<f64>,
-    /// λ with Qc_id = Aᵀλ; the one of least norm where constraints are redundant.
+    /// The multipliers λ with Qc_id = Aᵀλ, one a constraint; those of least norm where constraints are redundant.
     pub multipliers: Vec<f64>,
-    /// Rank of A.
+    /// The rank of the constraint Jacobian A.
     pub rank: usize,
-    /// n − rank A.
+    /// The degrees of freedom n − rank A.
     pub degrees_of_freedom: usize,
-    /// The formula that was used (never [`Formula::Auto`]).
+    /// The formula that was used, which is never [`Formula::Auto`].
     pub formula: Formula,
-    /// Indices of constraints that the others imply, ascending. Not an error.
+    /// Indices of redundant constraints, which the others imply, in ascending order. They are no error.
     pub redundant: Vec<usize>,
 }

@@ -5,7 +5,7 @@
 pub struct Structure {
     /// `Mechanism::acceleration` and `Mechanism::correction` exist.
     pub straight_line: bool,
-    /// How q̈ is solved for.
+    /// How the accelerations q̈ are solved for.
     pub solve: Solve,
     /// Structural non-zeros (row, column) of M, both triangles.
     pub mass_pattern: &'static [(usize, usize)],
@@ -119,7 +119,7 @@ pub enum Check {
     Share(usize),
 }
 
-/// Operations of one call, each.
+/// Operations of one call of each function, and of what it replaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Costs {
     /// `Mechanism::dynamics`: M, Q, c, A and b.
