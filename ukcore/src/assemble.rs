@@ -170,7 +170,7 @@ pub(crate) struct Held {
     pub(crate) velocities: Vec<usize>,
     /// Coordinates of whose position the guess says nothing: of several states they do not choose.
     pub(crate) untold: Vec<usize>,
-    /// Coordinates of whose velocity it says nothing: these follow, at whatever size, before one of which it speaks is changed.
+    /// Coordinates of whose velocity the guess says nothing: these follow, at whatever size, before one of which it speaks is changed.
     pub(crate) untold_rates: Vec<usize>,
     /// The coordinates of quaternions, four by four, in whose velocities an angular velocity stands.
     pub(crate) turning: Vec<(usize, GuessKind)>,
@@ -185,7 +185,7 @@ impl Held {
         }
     }
 
-    /// All that keep anything, each once.
+    /// All coordinates that keep anything, each once.
     fn all(&self) -> Vec<usize> {
         let mut all = [&self.positions[..], &self.velocities].concat();
         all.sort_unstable();

@@ -99,7 +99,7 @@ impl Prepared {
 enum Look {
     /// The parts where assembly compares such ways.
     AtParts,
-    /// All around the guess, too, where coordinates stay free.
+    /// The whole surroundings of the guess, too, where coordinates stay free.
     Everywhere,
 }
 

@@ -191,7 +191,7 @@ impl Columns {
 /// Mechanism and state, moving in several directions.
 struct Sweep {
     mech: Prepared<Sloped, dyn Dynamics<Sloped>>,
-    /// Some parameter moves.
+    /// Whether some parameter moves.
     moving: bool,
     t: Sloped,
     q: Vec<Sloped>,

@@ -208,7 +208,7 @@ impl<S: Scalar> Evaluated<S> {
         }
     }
 
-    /// All of them.
+    /// All five terms, in the order M, Q, c, A, b.
     pub(crate) fn all(&self) -> [&[S]; 5] {
         [
             &self.mass,

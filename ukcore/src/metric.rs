@@ -72,7 +72,7 @@ enum Kind {
     Diagonal,
     /// M = L Lᵀ with L lower triangular.
     Full,
-    /// Only a scaling L = diag(root).
+    /// L = diag(root) is a scaling only.
     Scales,
 }
 

@@ -11,7 +11,7 @@ use crate::scan::{all_finite, largest, or_one};
 
 /// Displacements are this part of the largest coordinate, and times are as far off; half as much each time it is too far.
 const SPREAD: f64 = 0.2;
-/// So often at most: then the state itself is taken.
+/// The number of halvings after which the state itself is taken.
 const HALVINGS: i32 = 24;
 
 /// States near one that tell what holds at it alone.

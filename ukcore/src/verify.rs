@@ -337,7 +337,7 @@ impl fmt::Display for Verified {
     }
 }
 
-/// So many faults are listed; the others follow from them as a rule.
+/// The number of faults that are listed; the others follow from them as a rule.
 const LISTED: usize = 8;
 
 impl fmt::Display for Unverified {

@@ -158,7 +158,7 @@ impl<'p> Driver<'p> {
         }
     }
 
-    /// All steps. Returns the state at the end, too.
+    /// Makes all steps. Returns the state at the end, too.
     fn travel(mut self) -> (Report, Vec<f64>) {
         let outcome = self.run();
         let (scheme, course) = (self.scheme, &mut self.equations.course);

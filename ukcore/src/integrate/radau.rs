@@ -67,7 +67,7 @@ fn run_tolerance(estimate: f64) -> f64 {
 struct Turning {
     /// Steps for which that is taken for granted.
     left: usize,
-    /// So many steps were, the last time.
+    /// The number of such steps the last time.
     before: usize,
 }
 

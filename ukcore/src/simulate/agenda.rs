@@ -57,7 +57,7 @@ impl Agenda {
         self.return_to(self.taken + 1);
     }
 
-    /// Only `taken` samples count as taken.
+    /// Makes only `taken` samples count as taken.
     pub(super) fn return_to(&mut self, taken: usize) {
         self.taken = taken;
         self.next = match &self.sampling {

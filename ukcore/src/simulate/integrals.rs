@@ -56,7 +56,7 @@ pub(super) struct Integrals {
     longest: f64,
     /// Time up to which the step in hand is taken.
     at: f64,
-    /// Each up to the last accepted step, and up to there.
+    /// The integrals up to the last accepted step, and up to that time.
     accepted: Vec<Sum>,
     reached: Vec<Sum>,
     values: Vec<f64>,
@@ -68,7 +68,7 @@ pub(super) struct Integrals {
     noise: Vec<f64>,
 }
 
-/// One integral, so far.
+/// What is known of one integral so far.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sum {
     value: f64,

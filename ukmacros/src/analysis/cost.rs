@@ -40,7 +40,7 @@ impl Operations {
         ]
     }
 
-    /// All of them, each as some multiplications.
+    /// The work of all operations, each counted as some multiplications.
     pub(crate) fn work(self) -> usize {
         let quick = self.additions + self.multiplications + self.selections;
         quick + 4 * (self.divisions + self.square_roots) + 12 * self.transcendentals

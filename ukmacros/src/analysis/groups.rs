@@ -4,7 +4,7 @@
 pub(super) struct Groups(Vec<usize>);
 
 impl Groups {
-    /// Each number by itself.
+    /// The groups in which each number is by itself.
     pub(super) fn new(size: usize) -> Self {
         Groups((0..size).collect())
     }

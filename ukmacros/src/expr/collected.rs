@@ -5,7 +5,7 @@ use super::graph::{Id, Map};
 /// Larger exponents are not composed: far from overflow, whatever derivatives do to them.
 const MAX_EXPONENT: i32 = 1 << 20;
 
-/// So many are looked through faster than a map finds one of them.
+/// The number of items that are looked through faster than a map finds one of them.
 const FEW: usize = 16;
 
 /// Terms with their coefficients, or factors with their exponents: each once, in the order of their coming.

@@ -131,7 +131,7 @@ impl Uses {
         }
     }
 
-    /// Neither q, q̇ nor t: fixed once the parameters are.
+    /// Whether the value depends neither on q, q̇ nor t: it is fixed once the parameters are.
     pub(crate) fn constant(self) -> bool {
         let along = self.coord || self.velocity || self.time || self.multiplier;
         !(along || self.residual || self.branch)

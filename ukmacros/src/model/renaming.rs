@@ -51,7 +51,7 @@ pub(super) struct Renaming {
     pub(super) hidden: Vec<String>,
     /// What the whole declares by `let`, and the ground if it declares one: names of the vocabulary that the part means otherwise.
     pub(super) own: Rc<HashSet<String>>,
-    /// One of these that the part uses.
+    /// A name of these that the part uses.
     pub(super) clash: Option<String>,
     pub(super) span: Span,
 }

@@ -391,7 +391,7 @@ pub(crate) fn arity(name: &Ident, expected: usize, found: usize) -> String {
     format!("`{name}` takes {}, found {found}", arguments(expected))
 }
 
-/// So many arguments, in words.
+/// The number of arguments in words.
 pub(crate) fn arguments(count: usize) -> String {
     let s = if count == 1 { "" } else { "s" };
     format!("{count} argument{s}")

@@ -51,7 +51,7 @@ pub(crate) struct Model {
     pub(crate) applications: Cell<u32>,
     /// The first application that was one too many.
     pub(crate) too_many: Cell<Option<Loc>>,
-    /// There are units in the declaration.
+    /// Whether there are units in the declaration.
     pub(crate) units: bool,
     /// Names with a fixed meaning.
     pub(crate) reserved: HashSet<&'static str>,

@@ -15,7 +15,7 @@ pub(crate) struct Declaration {
     pub(crate) lints: TokenStream,
     /// Whether the declaration may be a part of others: `#[ukcore(part)]`.
     pub(crate) part: bool,
-    /// There are units in it, or in a part of it.
+    /// Whether there are units in the declaration, or in a part of it.
     pub(crate) units: bool,
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
@@ -146,7 +146,7 @@ pub(crate) struct Merged {
     pub(crate) families: BTreeMap<String, Vec<Vec<i64>>>,
     /// The place where each part is declared, and its name.
     pub(crate) places: Vec<(Loc, String)>,
-    /// There is an error in one, which is told where that is declared.
+    /// Whether there is an error in a part, which is told where that is declared.
     pub(crate) faulty: bool,
 }
 
@@ -216,7 +216,7 @@ pub(crate) struct StartOption {
 
 /// `x = value`, `[x, y] near value`, `dot(x) = value`.
 pub(crate) struct Guess {
-    /// One, or those in brackets.
+    /// The key of the guess, or those in brackets.
     pub(crate) keys: Vec<Key>,
     /// Whether brackets are written, so that the value is a vector of as many.
     pub(crate) vector: bool,

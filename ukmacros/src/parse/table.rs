@@ -11,7 +11,7 @@ pub(crate) struct Known {
     path: String,
     /// Whether the declaration is a part.
     pub(crate) is_part: bool,
-    /// There is an error in it, which is told.
+    /// Whether there is an error in the declaration, which is told.
     pub(crate) faulty: bool,
     pub(crate) declaration: TokenStream,
     /// The declarations that it is made of.

@@ -8,7 +8,7 @@ use crate::integrate::course::Place;
 #[derive(Default)]
 pub(super) struct Before {
     states: Vec<(Place, Vec<f64>)>,
-    /// So many of them; the others are room for more.
+    /// The number of states that count; the others are room for more.
     count: usize,
 }
 

@@ -58,7 +58,7 @@ const SEEN: f64 = 0.2;
 /// A stage tells nothing of a significance that is so many times less where the run stands than it would be by that of the stage.
 const STEEP: f64 = 8.0;
 
-/// So often a step is planned anew from one place before it is halved.
+/// The number of plans for a step from one place after which it is halved.
 const PLANS: usize = 6;
 
 /// A position where nothing tells how the motion goes on is met within this share of the way to it from the start of the run; and the share
@@ -68,7 +68,7 @@ const UP_TO: f64 = 0.9;
 
 /// So many steps of one size before a position are made by longer ones, which are to have the room to go over it as they would.
 pub(super) const BACK: usize = 32;
-/// So many behind it.
+/// The number of such steps behind the position.
 const BEYOND: usize = 8;
 
 /// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
@@ -84,9 +84,9 @@ const SHORT: f64 = 0.8;
 #[derive(Default)]
 pub(super) struct Passage {
     ahead: Option<Singular>,
-    /// One has been met since the start of the run, whatever it may be.
+    /// Whether a position has been met since the start of the run, whatever it may be.
     pub(super) met: bool,
-    /// The step in hand goes over it.
+    /// Whether the step in hand goes over the position ahead.
     passing: bool,
     /// The step in hand, where it goes over it to behind the end of the run; whether none may.
     pub(super) beyond: Option<Trial>,

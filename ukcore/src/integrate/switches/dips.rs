@@ -71,7 +71,7 @@ impl Buffers {
 pub(in crate::integrate) enum Seen {
     /// The functions stay in their branches.
     Whole,
-    /// There are places where they may be outside.
+    /// There are places where the functions may be outside of their branches.
     Dips,
     /// The functions change too often to tell.
     Rough,

@@ -71,7 +71,7 @@ impl Value {
         matches!(self, Value::Error)
     }
 
-    /// Each number replaced.
+    /// The value with each number replaced.
     pub(super) fn map(&self, new: impl FnMut(Id) -> Id) -> Self {
         match self {
             Value::Error => Value::Error,

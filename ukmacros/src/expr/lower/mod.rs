@@ -163,7 +163,7 @@ struct Lowering<'m> {
     /// Names of constraints, outputs and integrals.
     results: HashMap<String, NoValue>,
     constraints: Vec<Constraint>,
-    /// All constraints are there.
+    /// Whether all constraints are there.
     constrained: bool,
     /// Constraints by their names, without those of rows.
     known: HashMap<String, Known>,
