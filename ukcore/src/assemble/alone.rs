@@ -31,7 +31,7 @@ impl Alone {
     }
 
     /// Whether the rows of `part` are seen to have one solution at most where each of its unknowns j differs from `middle` by at most
-    /// `reach` · `ease`[j], and all other coordinates are those of `x`. They may have no other one where this is not seen.
+    /// `reach` · `ease[j]`, and all other coordinates are those of `x`. They may have no other one where this is not seen.
     ///
     /// Let J hold ∂φ/∂x over the box, and C be a left inverse of its middle. Of two solutions x and y, by the mean value theorem row by
     /// row, 0 = J (x − y) for some J in it, so |x − y| ≤ P |x − y| with P ≥ |1 − C J|, elementwise: if w − P w > 0 for some w > 0, then
