@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
-use crate::spec::{GuessKind, Spec};
+use crate::spec::{GuessKind, Spec, rate_of};
 
 mod alone;
 mod by_parts;
@@ -57,7 +57,7 @@ impl State {
     pub fn guess<M: Mechanism>(values: &[(&str, f64)]) -> Result<Self, Error> {
         let mut state = State::zeros::<M>();
         for (name, value) in values {
-            let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
+            let velocity = rate_of(name);
             let indices = M::SPEC.coordinate_indices(velocity.unwrap_or(name));
             match (indices, velocity) {
                 (Err(_), None) if *name == "t" => state.t = *value,

@@ -250,10 +250,15 @@ impl Error {
         names: &mut dyn Iterator<Item = &str>,
     ) -> Self {
         let known: Vec<String> = names.map(str::to_owned).collect();
-        // At most half of it.
-        let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
-        let nearest = known.iter().min_by_key(|n| distance(name, n));
-        let nearest = nearest.filter(|n| distance(name, n) <= most(n)).cloned();
+        let lower = name.to_lowercase();
+        let differ = |n: &&String| strsim::osa_distance(&lower, &n.to_lowercase());
+        // Less than half of it differs, or one letter of two, as for names in a declaration.
+        let alike = |n: &&String| {
+            let length = n.chars().count().max(name.chars().count());
+            let differ = differ(n);
+            2 * differ < length || differ == 1 && length == 2
+        };
+        let nearest = known.iter().min_by_key(differ).filter(alike).cloned();
         Error::UnknownName {
             kind,
             name: name.to_owned(),
@@ -261,22 +266,6 @@ impl Error {
             known,
         }
     }
-}
-
-/// Levenshtein distance, case ignored.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.to_lowercase().chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substitution = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 /// The sentence on where the rounding of a step comes from, and what to do.
@@ -429,16 +418,22 @@ mod tests {
     }
 
     #[test]
-    fn distances() {
-        for (a, b, d) in [
-            ("", "", 0),
-            ("", "abc", 3),
-            ("kitten", "sitting", 3),
-            ("θ1", "θ2", 1),
-            ("AB", "ab", 0),
+    fn a_name_is_near_if_less_than_half_of_it_differs_or_one_letter_of_two() {
+        for (name, known, near) in [
+            ("rodd", "rod", true),
+            ("TH1", "th1", true),
+            ("θ1", "θ2", true),
+            ("form", "from", true),
+            ("a", "b", false),
+            ("pin", "bar", false),
+            ("abcd", "abxy", false),
+            ("", "x", false),
         ] {
-            assert_eq!(distance(a, b), d, "{a} {b}");
-            assert_eq!(distance(b, a), d, "{b} {a}");
+            let error = Error::unknown_name("coordinate", name, &mut [known].into_iter());
+            let Error::UnknownName { nearest, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!(nearest.is_some(), near, "{name} {known}");
         }
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::scalar::tape::player;
-use crate::scalar::{Scalar, operators};
+use crate::scalar::{Scalar, functions, operators};
 
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
@@ -99,7 +99,7 @@ operators! { [] Interval:
 }
 
 macro_rules! rising {
-    ($($name:ident)*) => { $(fn $name(self) -> Self { self.rising(f64::$name) })* };
+    (@unary: $($name:ident)*) => { $(fn $name(self) -> Self { self.rising(f64::$name) })* };
 }
 
 impl Scalar for Interval {
@@ -115,7 +115,8 @@ impl Scalar for Interval {
             _ => then.hull(otherwise),
         }
     }
-    rising!(sqrt asin atan sinh tanh asinh acosh atanh exp ln);
+    functions!(rising rising!());
+    rising!(@unary: sqrt exp);
     fn sin_cos(self) -> (Self, Self) {
         (self.sine(), (self + Interval::exact(FRAC_PI_2)).sine())
     }
@@ -178,14 +179,14 @@ mod tests {
 
     type Function = (fn(f64, f64) -> f64, fn(Interval, Interval) -> Interval);
 
-    macro_rules! functions {
+    macro_rules! both {
         ($(|$x:ident, $y:ident| $value:expr;)*) => {
             [$((|$x: f64, $y: f64| $value, |$x: Interval, $y: Interval| $value)),*]
         };
     }
 
     /// Every function of the language, and sums and products of some.
-    const FUNCTIONS: [Function; 33] = functions! {
+    const FUNCTIONS: [Function; 33] = both! {
         |x, y| x + y;
         |x, y| x - y;
         |x, y| x * y;

@@ -132,10 +132,15 @@ pub trait Scalar:
     fn powf(self, y: Self) -> Self;
 }
 
-/// Hands the functions that every number type takes from `f64`, or from a rule for any function, to the macro `$to`.
+/// Hands the functions that every number type takes from `f64`, or from a rule for any function, to the macro `$to`; with `rising`, those
+/// that grow with their argument alone.
 macro_rules! functions {
+    (rising $to:ident!($($arguments:tt)*)) => {
+        $to!(@unary $($arguments)*: asin atan sinh tanh asinh acosh atanh ln);
+    };
     ($to:ident!($($arguments:tt)*)) => {
-        $to!(@unary $($arguments)*: tan asin acos atan sinh cosh tanh asinh acosh atanh ln);
+        $crate::scalar::functions!(rising $to!($($arguments)*));
+        $to!(@unary $($arguments)*: tan acos cosh);
         $to!(@binary $($arguments)*: atan2 hypot powf);
     };
 }

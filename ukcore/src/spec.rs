@@ -245,7 +245,7 @@ pub struct Equations {
     pub force: &'static [&'static str],
     /// The entries of c.
     pub nonideal: &'static [&'static str],
-    /// Each constraint, followed by its entries of A and of b.
+    /// Each constraint, followed by its entries of A and of b, which are set in by four spaces.
     pub constraints: &'static [&'static str],
 }
 
@@ -396,6 +396,12 @@ impl Spec {
     pub fn constraint_index(&self, name: &str) -> Result<usize, Error> {
         find("constraint", name, self.constraints.iter().map(|c| c.name))
     }
+}
+
+/// The coordinate whose velocity `name` is: `x` of `dot(x)`, also where it is a family or a body; none where it is no velocity.
+#[must_use]
+pub fn rate_of(name: &str) -> Option<&str> {
+    name.strip_prefix("dot(")?.strip_suffix(')')
 }
 
 /// Whether what is called `full` is, or belongs to, what is called `name`: `p[1][2]` to the row `p[1]` and the family `p`, `jib.angle` to

@@ -315,9 +315,9 @@ const _: () = {
                 nonideal: &[],
                 constraints: &[
                     "edge (nonholonomic): dot(x)*sin(th) - dot(y)*cos(th) = 0",
-                    "A[edge, x] = sin(th)",
-                    "A[edge, y] = -cos(th)",
-                    "b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))",
+                    "    A[edge, x] = sin(th)",
+                    "    A[edge, y] = -cos(th)",
+                    "    b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))",
                 ],
             },
         };

@@ -292,9 +292,9 @@ const _: () = {
                 nonideal: &[],
                 constraints: &[
                     "balance: k1*joint + k2*(joint - x) = 0",
-                    "A[balance, joint] = k1 + k2",
-                    "A[balance, x] = -k2",
-                    "b[balance] = 0",
+                    "    A[balance, joint] = k1 + k2",
+                    "    A[balance, x] = -k2",
+                    "    b[balance] = 0",
                 ],
             },
         };

@@ -288,9 +288,9 @@ const _: () = {
                 nonideal: &[],
                 constraints: &[
                     "rod: sq(x) + sq(y) - sq(l) = 0",
-                    "A[rod, x] = 2*x",
-                    "A[rod, y] = 2*y",
-                    "b[rod] = -2*(sq(dot(x)) + sq(dot(y)))",
+                    "    A[rod, x] = 2*x",
+                    "    A[rod, y] = 2*y",
+                    "    b[rod] = -2*(sq(dot(x)) + sq(dot(y)))",
                 ],
             },
         };

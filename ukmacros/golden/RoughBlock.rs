@@ -330,9 +330,9 @@ const _: () = {
                 ],
                 constraints: &[
                     "plane: x*sin(slope) + cos(slope)*y = 0",
-                    "A[plane, x] = sin(slope)",
-                    "A[plane, y] = cos(slope)",
-                    "b[plane] = 0",
+                    "    A[plane, x] = sin(slope)",
+                    "    A[plane, y] = cos(slope)",
+                    "    b[plane] = 0",
                 ],
             },
         };

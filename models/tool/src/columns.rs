@@ -1,7 +1,7 @@
 //! The quantities of a motion by the names that they have in tables: `t`, `x`, `dot(x)`, outputs, integrals, `energy`, `residual`.
 
 use ukcore::simulate::{Drift, Sample};
-use ukcore::spec::belongs;
+use ukcore::spec::{belongs, rate_of};
 use ukcore::{Error, Prepared};
 
 use crate::failure::Failure;
@@ -148,9 +148,8 @@ fn all(mechanism: &Prepared) -> Vec<Column> {
 
 /// Whether the column `known` is called `name` or belongs to it: `x[1][2]` to `x`, `dot(x[1])` to `dot(x)`.
 fn means(name: &str, known: &str) -> bool {
-    let rate = |text: &str| Some(text.strip_prefix("dot(")?.strip_suffix(')')?.to_owned());
-    match (rate(name), rate(known)) {
-        (Some(name), Some(known)) => belongs(&known, &name),
+    match (rate_of(name), rate_of(known)) {
+        (Some(name), Some(known)) => belongs(known, name),
         (None, None) => belongs(known, name),
         _ => false,
     }

@@ -82,7 +82,7 @@ impl Command {
 }
 
 #[derive(Debug, Parser)]
-#[command(version, about = "Dynamics of constrained multibody systems", after_help = HELP)]
+#[command(version = concat!("by uktool ", env!("CARGO_PKG_VERSION")), about = "Dynamics of constrained multibody systems", after_help = HELP)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -97,7 +97,15 @@ pub fn main(models: &[Entry]) -> ExitCode {
 /// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
 #[must_use]
 pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
-    let matches = C::command().try_get_matches();
+    // Programs are called as their users call them.
+    let own = std::env::args_os().next().map(PathBuf::from);
+    let own = own.as_deref().and_then(Path::file_stem);
+    let own = own.map(|name| name.to_string_lossy().into_owned());
+    let command = match own {
+        Some(own) => C::command().name(own),
+        None => C::command(),
+    };
+    let matches = command.try_get_matches();
     let mut matches = matches.unwrap_or_else(|error| answered(error).exit());
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }

@@ -185,7 +185,8 @@ pub(crate) fn whole(text: &str, range: Range<f64>) -> Option<f64> {
 }
 
 pub(crate) fn steps(text: &str) -> Result<usize, String> {
-    let number = whole(text, 1.0..1e18).ok_or("a whole number of steps is needed, at least 1")?;
+    let number =
+        whole(text, 1.0..1e18).ok_or("a whole number of steps is needed, from 1 to below 1e18")?;
     Ok(number as usize)
 }
 

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
+use ukcore::spec::rate_of;
 use ukcore::{Error, Prepared, State, assemble};
 use ukunits::Unit;
 
@@ -215,7 +216,7 @@ impl Start {
         };
         once("--guess", &self.place.guesses)?;
         for (name, quantity) in &self.place.guesses {
-            let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
+            let velocity = rate_of(name);
             let values = if velocity.is_some() {
                 &mut state.v
             } else {

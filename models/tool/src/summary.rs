@@ -126,31 +126,9 @@ impl Summary<'_> {
         let (id, start) = (&self.ready.entry.id, self.ready.start);
         let (method, ending) = (self.motion.method, self.ending());
         writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
-        let (drift, w) = (self.drift(), self.trajectory.work());
+        let w = self.trajectory.work();
         self.write_last(out)?;
-        let samples = count(self.measured.samples(), "sample");
-        writeln!(out, "\nLargest of {samples}")?;
-        if self.trajectory.spec().m() > 0 {
-            writeln!(
-                out,
-                "  constraint residuals: position {:.1e}, velocity {:.1e}, in the units of the constraints (SI)",
-                drift.position_residual, drift.velocity_residual,
-            )?;
-        }
-        match drift.energy_drift {
-            Some(drift) => {
-                let exchanged = significant(self.measured.exchanged(), 4);
-                let unit = joule(self.trajectory.spec());
-                writeln!(
-                    out,
-                    "  energy drift: {drift:.1e} of the energy exchanged, {exchanged}{unit}"
-                )?
-            }
-            None => writeln!(
-                out,
-                "  energy drift: not told, as energy is not conserved in this model"
-            )?,
-        }
+        self.write_largest(out)?;
         self.write_broken(out)?;
         if w.rounded > 0 {
             let steps = count(w.rounded, "step");
@@ -195,6 +173,38 @@ impl Summary<'_> {
                     "Dropped from the straight line, as the other constraints imply them: {names}"
                 )?;
             }
+        }
+        Ok(())
+    }
+
+    /// What the samples say of the motion's accuracy.
+    fn write_largest(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (drift, samples) = (self.drift(), self.measured.samples());
+        if samples == 0 {
+            return Ok(());
+        }
+        let samples = count(samples, "sample");
+        writeln!(out, "\nLargest of {samples}")?;
+        if self.trajectory.spec().m() > 0 {
+            writeln!(
+                out,
+                "  constraint residuals: position {:.1e}, velocity {:.1e}, in the units of the constraints (SI)",
+                drift.position_residual, drift.velocity_residual,
+            )?;
+        }
+        match drift.energy_drift {
+            Some(drift) => {
+                let exchanged = significant(self.measured.exchanged(), 4);
+                let unit = joule(self.trajectory.spec());
+                writeln!(
+                    out,
+                    "  energy drift: {drift:.1e} of the energy exchanged, {exchanged}{unit}"
+                )?
+            }
+            None => writeln!(
+                out,
+                "  energy drift: not told, as energy is not conserved in this model"
+            )?,
         }
         Ok(())
     }

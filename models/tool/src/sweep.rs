@@ -77,26 +77,26 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         true => columns::of_interest(&entry.mechanism),
         false => columns::named(&entry.mechanism, &args.of)?,
     };
-    let plan = Plan {
+    let work = Work {
         entry,
         members: args.runs.each(entry, MOST)?,
         columns,
         every: args.every,
     };
     // Of the ways to begin those of the first run are told.
-    let first = &plan.members[0].start;
+    let first = &work.members[0].start;
     let ways = first.ready(entry).ok();
     let ways = ways.map_or(Vec::new(), |ready| first.other_ways(&ready));
     ways::tell(args.runs.bare(entry).into_iter().chain(ways));
-    let head = plan.head()?;
+    let head = work.head()?;
     let rows = rows(&args.out)?;
     let mut table = Table::open(&rows, &head)?;
     let (number, of) = args.shard.unwrap_or((1, 1));
     let own = |member: &usize| member % of == number - 1;
-    let mut todo = table.missing(&plan)?;
+    let mut todo = table.missing(&work)?;
     todo.retain(own);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));
-    let all = (0..plan.members.len()).filter(own).count();
+    let all = (0..work.members.len()).filter(own).count();
     let done = AtomicUsize::new(0);
     let had = all - todo.len();
     let file = Mutex::new(&mut table.file);
@@ -104,7 +104,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         if interrupt.is_set() {
             return Ok(());
         }
-        let row = plan.row(member, interrupt)?;
+        let row = work.row(member, interrupt)?;
         if let Some(row) = row.filter(|_| !interrupt.is_set()) {
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
             file.write_all(&row).map_err(|e| Failure::file(&rows, &e))?;
@@ -186,14 +186,14 @@ const LAST: [&str; 7] = [
 ];
 
 /// All that is to be computed.
-struct Plan<'a> {
+struct Work<'a> {
     entry: &'a Entry,
     members: Vec<Variant>,
     columns: Vec<Column>,
     every: Option<f64>,
 }
 
-impl Plan<'_> {
+impl Work<'_> {
     /// The line of names.
     fn head(&self) -> Result<Vec<u8>, Failure> {
         let (_, start, _) = self.members[0].start.settings(self.entry)?;
@@ -438,12 +438,12 @@ impl Table {
     ///
     /// # Errors
     /// [`Failure::Usage`] where a row is of another sweep.
-    fn missing(&mut self, plan: &Plan<'_>) -> Result<Vec<usize>, Failure> {
+    fn missing(&mut self, work: &Work<'_>) -> Result<Vec<usize>, Failure> {
         let mut missing = Vec::new();
-        for member in 0..plan.members.len() {
+        for member in 0..work.members.len() {
             match self.rows.remove(&member) {
                 None => missing.push(member),
-                Some(row) if row.starts_with(&plan.key(member)?) => {}
+                Some(row) if row.starts_with(&work.key(member)?) => {}
                 Some(_) => return Err(other(&self.path)),
             }
         }

@@ -273,8 +273,18 @@ fn costs(costs: &Costs) -> TokenStream {
 }
 
 fn equations(listing: &Listing) -> TokenStream {
-    let texts =
-        |blocks: &[Block]| -> Vec<String> { blocks.iter().flat_map(Block::texts).collect() };
+    // The rows below the first of a block are set in.
+    let rows = |block: &Block| {
+        let texts = block.texts().into_iter().enumerate();
+        texts.map(|(row, text)| {
+            if row == 0 {
+                text
+            } else {
+                format!("    {text}")
+            }
+        })
+    };
+    let texts = |blocks: &[Block]| -> Vec<String> { blocks.iter().flat_map(rows).collect() };
     let [definitions, mass, force, nonideal, constraints] = [
         &listing.definitions,
         &listing.mass,

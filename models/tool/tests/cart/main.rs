@@ -100,7 +100,7 @@ fn wrong_names_and_numbers_are_told_with_what_is_right() {
     for number in ["1", "1e9", "2.5", "-3", "many"] {
         fails(&format!("animate cart --pictures {number}"), 2, pictures);
     }
-    let steps = "a whole number of steps is needed, at least 1";
+    let steps = "a whole number of steps is needed, from 1 to below 1e18";
     fails("run cart --max-steps -3", 2, steps);
 }
 
