@@ -60,7 +60,7 @@ ukcore::multibody! {
 }
 
 impl Model for DoublePendulum {
-    const ID: &'static str = "double_pendulum";
+    const ID: &'static str = "double-pendulum";
 
     fn references() -> Vec<Reference> {
         known("states")

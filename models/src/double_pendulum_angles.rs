@@ -66,7 +66,7 @@ ukcore::multibody! {
 }
 
 impl Model for DoublePendulumAngles {
-    const ID: &'static str = "double_pendulum_angles";
+    const ID: &'static str = "double-pendulum-angles";
 
     fn references() -> Vec<Reference> {
         double_pendulum::known("angles")

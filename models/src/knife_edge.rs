@@ -53,7 +53,7 @@ ukcore::multibody! {
 }
 
 impl Model for KnifeEdge {
-    const ID: &'static str = "knife_edge";
+    const ID: &'static str = "knife-edge";
 
     fn references() -> Vec<Reference> {
         let edge = KnifeEdge::default();

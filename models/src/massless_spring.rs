@@ -45,7 +45,7 @@ ukcore::multibody! {
 }
 
 impl Model for MasslessSpring {
-    const ID: &'static str = "massless_spring";
+    const ID: &'static str = "massless-spring";
 
     fn references() -> Vec<Reference> {
         let spring = MasslessSpring::default();

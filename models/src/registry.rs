@@ -38,10 +38,10 @@ macro_rules! plain {
 
 plain![
     KapitzaPendulum = "kapitza",
-    SliderCrank = "slider_crank",
-    DoubleScottRussell = "double_scott_russell",
-    RigidBody = "rigid_body",
-    FourBars = "four_bars",
+    SliderCrank = "slider-crank",
+    DoubleScottRussell = "double-scott-russell",
+    RigidBody = "rigid-body",
+    FourBars = "four-bars",
 ];
 
 registry![

@@ -51,7 +51,7 @@ ukcore::multibody! {
 }
 
 impl Model for RoughBlock {
-    const ID: &'static str = "rough_block";
+    const ID: &'static str = "rough-block";
 
     fn references() -> Vec<Reference> {
         let block = RoughBlock::default();

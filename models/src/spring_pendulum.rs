@@ -55,7 +55,7 @@ ukcore::multibody! {
 }
 
 impl Model for SpringPendulum {
-    const ID: &'static str = "spring_pendulum";
+    const ID: &'static str = "spring-pendulum";
 
     /// A hard spring makes it stiff.
     fn variations() -> &'static [&'static [(&'static str, f64)]] {

@@ -40,7 +40,7 @@ fn the_right_models_are_conservative() {
     every_model(|model| {
         let mechanism = &model.mechanism;
         let spec = mechanism.spec();
-        let expected = !["fish", "kapitza", "rough_block"].contains(&model.id.as_str());
+        let expected = !["fish", "kapitza", "rough-block"].contains(&model.id.as_str());
         assert_eq!(spec.structure.conservative, expected, "{}", model.id);
     });
 }

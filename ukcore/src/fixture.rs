@@ -4,8 +4,15 @@
 //! is independent of the macro's symbolic derivatives.
 
 use crate::mechanism::{Energy, Mechanism, Prepared, Terms};
+use crate::random::Random;
 use crate::scalar::{Dual, Scalar};
 use crate::spec::{ConstraintKind, ConstraintSpec, ParamSpec, Solve, Spec, Structure};
+
+/// Numbers in [−1, 1), the same in every run.
+pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = Random::new(seed);
+    move || random.signed()
+}
 
 /// What a test mechanism states.
 pub(crate) trait Toy: Clone + Default + Into<Prepared> + Send + Sync + 'static {

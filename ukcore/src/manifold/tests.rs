@@ -3,15 +3,6 @@ use crate::fixture::*;
 use crate::mechanism::Mechanism;
 use approx::assert_abs_diff_eq;
 
-fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-    move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
-    }
-}
-
 fn residuals<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
     let (mut phi, mut rate) = (vec![0.0; M::SPEC.holonomic], vec![0.0; M::SPEC.m()]);
     mech.prepared().residual(t, q, &mut phi);

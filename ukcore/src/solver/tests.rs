@@ -11,16 +11,6 @@ mod rank;
 
 const TOLERANCE: f64 = 1e-11;
 
-/// Deterministic numbers in (−1, 1).
-fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-    move || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
-    }
-}
-
 /// M, Q, c, A, b as dense matrices.
 struct Printed {
     mass: DMatrix<f64>,

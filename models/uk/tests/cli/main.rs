@@ -194,7 +194,7 @@ fn methods_and_stabilisations_agree() {
         for stabilise in ["projection", "baumgarte", "baumgarte=5,10", "none"] {
             let run = json(&[
                 "run",
-                "double_pendulum",
+                "double-pendulum",
                 "--until",
                 "1",
                 "--json",
@@ -298,9 +298,9 @@ fn a_start_is_assembled_from_a_guess() {
 fn a_remark_is_no_failure() {
     let page = include_str!("../../../../docs/commands.md");
     assert!(page.contains(
-        "| 0 | done, with a remark in the summary | `run` | `uk run double_scott_russell` |"
+        "| 0 | done, with a remark in the summary | `run` | `uk run double-scott-russell` |"
     ));
-    let told = output(&["run", "double_scott_russell"]);
+    let told = output(&["run", "double-scott-russell"]);
     let remark = "Dropped from the straight line, as the other constraints imply them: ";
     assert!(told.contains(remark), "{told}");
 }
@@ -308,7 +308,7 @@ fn a_remark_is_no_failure() {
 #[test]
 fn modes_say_what_they_leave_out() {
     // On level ground the block rests, by a friction that no linear motion has.
-    let told = output(&["modes", "rough_block", "--set", "slope=0"]);
+    let told = output(&["modes", "rough-block", "--set", "slope=0"]);
     let note = "is 0, where the non-ideal force on `x`";
     assert!(told.contains("\nnote: `") && told.contains(note), "{told}");
     let told = output(&["modes", "pendulum"]);
@@ -346,7 +346,7 @@ fn explain_shows_equations_and_rank() {
         chain.contains("  M[x[i], x[i]] = m,  i = 0 … 16\n"),
         "{chain}"
     );
-    let crank = output(&["explain", "double_scott_russell"]);
+    let crank = output(&["explain", "double-scott-russell"]);
     assert!(crank.contains("degrees of freedom: 1"), "{crank}");
     assert!(crank.contains("redundant constraints: "), "{crank}");
     assert!(!crank.contains("redundant constraints: none"), "{crank}");

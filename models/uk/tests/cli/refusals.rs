@@ -103,15 +103,15 @@ fn masses_out_of_range_are_named_errors_in_every_model() {
         ("uchain", "m", "`x[0]`", FAILED),
         ("fish", "m1", "`x1`", DONE),
         ("pendulum", "m", "`x`", FAILED),
-        ("double_pendulum", "m2", "`x2`", FAILED),
-        ("double_pendulum_angles", "m2", "`th1`", FAILED),
+        ("double-pendulum", "m2", "`x2`", FAILED),
+        ("double-pendulum-angles", "m2", "`th1`", FAILED),
         ("kapitza", "m", "`x`", FAILED),
-        ("slider_crank", "m2", "`rod.x`", DONE),
-        ("double_scott_russell", "table_mass", "`table.x`", DONE),
-        ("knife_edge", "i", "`th`", FAILED),
-        ("rough_block", "m", "`x`", FAILED),
-        ("massless_spring", "m", "`x`", FAILED),
-        ("rigid_body", "i3", "`e3`", FAILED),
+        ("slider-crank", "m2", "`rod.x`", DONE),
+        ("double-scott-russell", "table_mass", "`table.x`", DONE),
+        ("knife-edge", "i", "`th`", FAILED),
+        ("rough-block", "m", "`x`", FAILED),
+        ("massless-spring", "m", "`x`", FAILED),
+        ("rigid-body", "i3", "`e3`", FAILED),
     ] {
         let run = |value: &str| {
             let setting = format!("{mass}={value}");

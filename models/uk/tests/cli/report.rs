@@ -149,8 +149,8 @@ fn an_interrupted_report_goes_on() {
     let out = scratch.path("out");
     let args = [
         "report",
-        "knife_edge",
-        "rough_block",
+        "knife-edge",
+        "rough-block",
         "--quick",
         "--out",
         &out,
@@ -172,7 +172,7 @@ fn an_interrupted_report_goes_on() {
         serde_json::from_str(&fs::read_to_string(&path).expect("file")).expect("JSON");
     assert_eq!(again["complete"], true);
     assert_eq!(again["studies"][0]["summary"], "marked");
-    assert_eq!(again["studies"][1]["model"], "rough_block");
+    assert_eq!(again["studies"][1]["model"], "rough-block");
     // A complete one is measured anew, and so is that of another program.
     report["program"] = Value::from("another");
     for text in [again.to_string(), report.to_string()] {
