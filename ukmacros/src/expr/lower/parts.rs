@@ -269,6 +269,27 @@ fn chosen(name: &Ident, dimension: usize, count: usize) -> Result<&'static Part,
     ))
 }
 
+/// Whether a value is what is taken in a space of this dimension, and what that is.
+fn taken(takes: Takes, value: &Value, dimension: usize) -> (bool, String) {
+    match takes {
+        Takes::Point => (
+            matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
+            "a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`".to_owned(),
+        ),
+        Takes::Body => (
+            matches!(value, Value::Body(_) | Value::Point(_)),
+            "a body".to_owned(),
+        ),
+        Takes::Direction | Takes::Force => (value.shape() == [dimension], describe(&[dimension])),
+        Takes::Moment if dimension != 2 => (value.shape() == [3], describe(&[3])),
+        Takes::Number | Takes::Length | Takes::Moment => (
+            value.shape().is_empty() && !matches!(value, Value::Body(_)),
+            describe(&[]),
+        ),
+        Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
+    }
+}
+
 impl<'m> Lowering<'m> {
     /// The rows of a joint.
     pub(super) fn joint(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
@@ -510,25 +531,7 @@ impl<'m> Lowering<'m> {
             unit,
             ..
         } = *arg;
-        let (fits, expected) = match takes {
-            Takes::Point => (
-                matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
-                "a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`".to_owned(),
-            ),
-            Takes::Body => (
-                matches!(value, Value::Body(_) | Value::Point(_)),
-                "a body".to_owned(),
-            ),
-            Takes::Direction | Takes::Force => {
-                (value.shape() == [dimension], describe(&[dimension]))
-            }
-            Takes::Moment if !flat => (value.shape() == [3], describe(&[3])),
-            Takes::Number | Takes::Length | Takes::Moment => (
-                value.shape().is_empty() && !matches!(value, Value::Body(_)),
-                describe(&[]),
-            ),
-            Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
-        };
+        let (fits, expected) = taken(takes, value, dimension);
         if !fits {
             let found = match value {
                 Value::Body(body) => format!("the body `{body}`"),
