@@ -193,6 +193,7 @@ struct States<'a> {
 }
 
 impl<'a> States<'a> {
+    /// Evaluates a block of the equations `d` where they can be.
     fn of(block: &Block, d: &Dynamics, defaults: &'a [f64], g: &Graph) -> Self {
         let k = block.coordinates.len();
         let mut ids = Vec::with_capacity(k * k);

@@ -89,6 +89,7 @@ struct Variables<'a, N> {
 }
 
 impl<N: Fn(Id) -> bool> Variables<'_, N> {
+    /// Whether a node is read at all.
     fn is_needed(&self, id: Id) -> bool {
         self.uses.get(id.index()).is_some_and(|n| *n > 0)
     }
@@ -105,6 +106,7 @@ impl<N: Fn(Id) -> bool> Variables<'_, N> {
         Some(if sine { (id, other) } else { (other, id) })
     }
 
+    /// Whether a node is one; sine and cosine of one argument are two beside these.
     fn contain(&self, id: Id) -> bool {
         match self.g.node(id) {
             Node::Const(_) | Node::Symbol(_) => false,

@@ -96,6 +96,7 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     }
 }
 
+/// A coordinate or constraint, as it is written.
 fn name(text: &str) -> Name {
     Name::from(text)
 }

@@ -14,6 +14,7 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
+    /// Scales the equations `d`.
     pub(super) fn of(d: &Dynamics, g: &mut Graph) -> Self {
         let (common_factor, mut dynamics) = without_common_factor(d, g);
         for (q, c) in dynamics.force.iter_mut().zip(dynamics.nonideal.drain(..)) {
