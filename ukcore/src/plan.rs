@@ -169,9 +169,10 @@ impl Plan {
             2 * solve.fill.len()
         );
         paragraph(f, &text)?;
-        let coord = |i: usize| spec.coords[i];
-        let row = |i: usize| spec.constraints[i].name;
-        let rows = |rows: &[usize]| rows.iter().map(|c| row(*c)).collect::<Vec<_>>();
+        let rows = |rows: &[usize]| -> Vec<&str> {
+            let rows = rows.iter();
+            rows.map(|row| spec.constraints[*row].name).collect()
+        };
         if !solve.regular.is_empty() {
             let text = format!(
                 "M alone is singular, at any state or at some: for the row a of A of each of {}, μ aᵀa was added to M and μ aᵀb to Q, \
@@ -210,12 +211,19 @@ impl Plan {
             hubs = &hubs[of..];
             let text = format!(
                 "{} is written {} times, once for each of the parts that share it, tied one to the next.",
-                coord(*hub),
+                spec.coords[*hub],
                 of + 1
             );
             paragraph(f, &text)?;
         }
-        let mut rest = solve.pivots;
+        self.pivots(f)
+    }
+
+    /// What is eliminated, those that are alike in one line.
+    fn pivots(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let coord = |i: usize| self.spec.coords[i];
+        let row = |i: usize| self.spec.constraints[i].name;
+        let mut rest = self.spec.structure.solve.pivots;
         while let Some(first) = rest.first() {
             let alike = |p: &Pivot| std::mem::discriminant(p) == std::mem::discriminant(first);
             let count = rest.iter().position(|p| !alike(p)).unwrap_or(rest.len());

@@ -23,7 +23,7 @@ const MAX_STEPS: usize = 40;
 /// what rounding may make of one, as a part of the largest coordinate.
 const NEARBY: usize = 3;
 const CONTRACTS: f64 = 0.25;
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const ROUNDED_STEP: f64 = 64.0 * f64::EPSILON;
 
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
@@ -224,7 +224,7 @@ impl Manifold {
             }
             self.settling_step(at, x, false)?;
             let step = largest(&self.newton.step);
-            let small = step <= (CONTRACTS * before).max(ROUNDING * largest(x));
+            let small = step <= (CONTRACTS * before).max(ROUNDED_STEP * largest(x));
             if !small {
                 return Ok(false);
             }

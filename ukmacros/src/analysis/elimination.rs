@@ -16,8 +16,8 @@
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own:
 //! see [`dropping`].
 //!
-//! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
-//! order; [`solution`] solves for a right-hand side.
+//! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K, [`scaled`],
+//! in that order; [`solution`] solves for a right-hand side.
 
 mod certificate;
 mod dropping;
@@ -28,6 +28,7 @@ mod order;
 mod pair;
 mod pattern;
 mod rotation;
+mod scaled;
 mod solution;
 
 use certificate::SAFE_SHARE;
@@ -35,14 +36,15 @@ pub(crate) use certificate::{Solve, Straight};
 
 use super::dynamics::Dynamics;
 use super::frame::Turned;
-use crate::expr::{Graph, Id, Symbol, is_power_of_two};
+use crate::expr::{Graph, Id, Symbol};
 use dropping::{Dropping, droppings, kernel, shares, squares};
 use matrix::{Factor, Matrix};
 pub(crate) use order::Order;
 use order::{Taste, order};
 use pattern::Pattern;
 pub(crate) use rotation::Rotation;
-use solution::Forward;
+use scaled::Scaled;
+use solution::{Forward, Solution};
 use std::collections::BTreeSet;
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
@@ -228,43 +230,34 @@ pub(crate) fn orders(task: &Task<'_>, defaults: &[f64], g: &Graph) -> Result<Vec
     }
 }
 
-/// Eliminates in the given order; or says why the structure does not allow it.
-pub(crate) fn eliminate(
+/// A system after all steps.
+struct Eliminated {
+    factors: Vec<Factor>,
+    /// What is divided by, with its step if it depends on the state.
+    divisors: Vec<(Divisor, Option<usize>)>,
+    /// Q and b.
+    motion: Forward,
+    /// Names of what is computed.
+    hints: Vec<(Id, String)>,
+}
+
+/// Takes the steps of an order.
+fn forward(
     task: &Task<'_>,
-    order: Order,
+    scaled: &Scaled,
+    order: &Order,
     g: &mut Graph,
-) -> Result<Elimination, String> {
-    let Task {
-        dynamics: d,
-        weights,
-        names,
-        own,
-        ..
-    } = *task;
+) -> Result<Eliminated, String> {
+    let (d, names) = (&scaled.dynamics, task.names);
     let droppable = order.alone(d.force.len(), task.redundant);
-    // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
-    let (common_factor, d) = &without_common_factor(d, g);
-    let common = (*common_factor != g.one()).then(|| {
-        let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
-        Divisor::positive(position, *common_factor, names)
-    });
-    let forces = d.force.iter().zip(&d.nonideal);
-    let force: Vec<Id> = forces.map(|(q, c)| g.add(*q, *c)).collect();
-    // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
-    let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
-    let mut jacobian = d.jacobian.clone();
-    for ((row, _), a) in &mut jacobian {
-        *a = g.scale(1.0 / scales[*row], *a);
-    }
-    let scaled = |sign: f64, ids: &[Id], g: &mut Graph| -> Vec<Id> {
-        let rows = ids.iter().zip(&scales);
-        rows.map(|(id, s)| g.scale(sign / s, *id)).collect()
-    };
-    let rhs = scaled(1.0, &d.rhs, g);
-    let mut matrix = Matrix::new(d, task, &jacobian, &order.pivots, droppable, g);
-    let mut motion = Forward::new(&force, &rhs);
+    let mut matrix = Matrix::new(d, task, &order.pivots, droppable, g);
+    let mut motion = Forward::new(&d.force, &d.rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.
+    let common = (scaled.common_factor != g.one()).then(|| {
+        let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
+        Divisor::positive(position, scaled.common_factor, names)
+    });
     let mut fixed: Vec<Divisor> = common.into_iter().collect();
     fixed.extend(task.turned.joints.iter().map(|joint| {
         let [value, reference] = joint.share;
@@ -278,89 +271,105 @@ pub(crate) fn eliminate(
         motion.step(&factor, g);
         match factor {
             Factor::Double(_) => fixed.extend(checked),
-            _ => divisors.extend(checked.into_iter().map(|divisor| (divisor, factors.len()))),
+            _ => divisors.extend(checked.into_iter().map(|d| (d, Some(factors.len())))),
         }
         factors.push(factor);
     }
     fixed.extend(inertia(d, divisors.iter().map(|(d, _)| d), names, g));
-    let (all, mut hints) = (task.multipliers.is_some(), matrix.hints);
+    let fixed = fixed.into_iter().map(|divisor| (divisor, None));
+    Ok(Eliminated {
+        factors,
+        divisors: fixed.chain(divisors).collect(),
+        motion,
+        hints: matrix.hints,
+    })
+}
+
+/// Δ of least M-norm with A Δ = −residual, and what of it is solved for.
+fn correction(
+    task: &Task<'_>,
+    scaled: &Scaled,
+    factors: &[Factor],
+    hints: &mut Vec<(Id, String)>,
+    g: &mut Graph,
+) -> Result<Solution, String> {
+    let d = &scaled.dynamics;
+    let residuals = (0..task.own.1).map(|i| g.symbol(Symbol::Residual(i)));
+    let mut residuals: Vec<Id> = residuals.collect();
+    residuals.resize(d.rhs.len(), g.zero());
+    let mut pull = vec![g.zero(); d.force.len()];
+    for (row, i, weight) in task.weights {
+        let weight = g.div(*weight, scaled.common_factor);
+        let term = g.mul(weight, residuals[*row]);
+        pull[*i] = g.sub(pull[*i], term);
+    }
+    task.turned.turn(&mut residuals, g);
+    let mut projection = Forward::new(&pull, &scaled.rows(-1.0, &residuals, g));
+    factors.iter().for_each(|factor| projection.step(factor, g));
+    let mut projection = projection.solution(factors, false, task.names, g, hints)?;
+    projection.coordinates.truncate(task.own.0);
+    task.turned.turn_back(&mut projection.coordinates, g);
+    Ok(projection)
+}
+
+/// Eliminates in the given order; or says why the structure does not allow it.
+pub(crate) fn eliminate(
+    task: &Task<'_>,
+    order: Order,
+    g: &mut Graph,
+) -> Result<Elimination, String> {
+    let (turned, names, own) = (task.turned, task.names, task.own);
+    let scaled = &Scaled::of(task.dynamics, g);
+    let d = &scaled.dynamics;
+    let Eliminated {
+        factors,
+        divisors,
+        motion,
+        mut hints,
+    } = forward(task, scaled, &order, g)?;
+    let all = task.multipliers.is_some();
     let mut motion = motion.solution(&factors, all, names, g, &mut hints)?;
-    let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
+    let droppings = droppings(&factors, &motion, d, g);
     let shares = match task.multipliers {
         Some(equations) if !droppings.is_empty() => {
             let squares = squares(equations, g);
-            let kernel = kernel(&factors, force.len(), &scales, &squares, names, g)?;
-            let kernel = multipliers(&kernel, g.one(), &scales, task.turned, g);
+            let kernel = kernel(&factors, d.force.len(), &scaled.scales, &squares, names, g)?;
+            let kernel = scaled.multipliers(&kernel, g.one(), turned, g);
             shares(&kernel, &squares, g)
         }
         _ => vec![Some(g.zero()); own.1],
     };
     motion.coordinates.truncate(own.0);
-    task.turned.turn_back(&mut motion.coordinates, g);
+    turned.turn_back(&mut motion.coordinates, g);
     let multipliers = match all {
-        true => multipliers(&motion.constraints, *common_factor, &scales, task.turned, g),
+        true => scaled.multipliers(&motion.constraints, scaled.common_factor, turned, g),
         false => Vec::new(),
     };
-    let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
-    let mut residuals: Vec<Id> = residuals.collect();
-    residuals.resize(d.rhs.len(), g.zero());
-    let mut pull = vec![g.zero(); force.len()];
-    for (row, i, weight) in weights {
-        let weight = g.div(*weight, *common_factor);
-        let term = g.mul(weight, residuals[*row]);
-        pull[*i] = g.sub(pull[*i], term);
-    }
-    task.turned.turn(&mut residuals, g);
-    let residuals = scaled(-1.0, &residuals, g);
-    let mut projection = Forward::new(&pull, &residuals);
-    factors.iter().for_each(|factor| projection.step(factor, g));
-    let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
-    projection.coordinates.truncate(own.0);
-    task.turned.turn_back(&mut projection.coordinates, g);
+    let projection = correction(task, scaled, &factors, &mut hints, g)?;
+    let right = |step: Option<usize>| step.and_then(|step| motion.rights[step]);
     let divisors = divisors.into_iter();
-    let divisors = divisors.map(|(divisor, step)| (divisor, motion.rights[step]));
-    let fixed = fixed.into_iter().map(|divisor| (divisor, None));
+    let divisors = divisors.map(|(divisor, step)| (divisor, right(step)));
     let n = d.force.len();
     let alone = |pivot: &Pivoting| matches!(pivot, Pivoting::Single(k) if *k >= n);
     let solved = order.pivots.iter().any(alone);
-    let free = own.1 == 0 && !solved;
-    let inertias = if solved {
-        lasting_inertias(d, g)
-    } else {
-        Vec::new()
-    };
     Ok(Elimination {
+        divisors: divisors.collect(),
         acceleration: motion.coordinates,
         multipliers,
         correction: projection.coordinates,
-        divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights.into_iter().flatten().collect(),
         droppings,
         shares,
         order,
-        free,
+        free: own.1 == 0 && !solved,
         solved,
-        inertias,
+        inertias: match solved {
+            true => lasting_inertias(d, g),
+            false => Vec::new(),
+        },
         place: place(d, own),
         hints,
     })
-}
-
-/// λ from the constraints' part x of a solution: K has M over a common factor, and rows over their scales and as they are `turned`.
-fn multipliers(
-    x: &[Id],
-    common_factor: Id,
-    scales: &[f64],
-    turned: &Turned,
-    g: &mut Graph,
-) -> Vec<Id> {
-    let scaled = x.iter().zip(scales).map(|(x, s)| {
-        let x = g.mul(*x, common_factor);
-        g.scale(-1.0 / s, x)
-    });
-    let mut multipliers: Vec<Id> = scaled.collect();
-    turned.turn_multipliers(&mut multipliers, g);
-    multipliers
 }
 
 /// Inertia that depends on parameters and is no pivot by itself: it must not be negative, nor zero where M has more in its row.
@@ -395,49 +404,4 @@ fn place(d: &Dynamics, (n, m): (usize, usize)) -> Vec<Option<usize>> {
     let coordinates = (0..d.force.len()).map(|i| (i < n).then_some(i));
     let constraints = (0..d.rhs.len()).map(|row| (row < m).then_some(n + row));
     coordinates.chain(constraints).collect()
-}
-
-/// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.
-fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
-    let mut entries = d.mass.values();
-    let mut common = entries.next().map_or(Vec::new(), |m| g.factors(*m));
-    common.retain(|(base, _)| g.uses(*base).constant() && g.as_const(*base).is_none());
-    for entry in entries {
-        let factors = g.factors(*entry);
-        common.retain(|factor| factors.contains(factor));
-    }
-    let mut factor = g.product(&common);
-    // A number that all entries off the diagonal are goes with it: they are multiplied by more often than those on it.
-    let off = d.mass.iter().filter(|((i, j), _)| i != j);
-    let mut off = off.map(|(_, m)| {
-        let rest = g.div(*m, factor);
-        g.as_const(rest).map(f64::abs).filter(|m| m.is_normal())
-    });
-    let first = off.next().flatten();
-    let number = first.filter(|first| off.all(|m| m == Some(*first)));
-    factor = g.scale(number.unwrap_or(1.0), factor);
-    let mut scaled = d.clone();
-    if factor != g.one() {
-        let vectors = scaled.force.iter_mut().chain(&mut scaled.nonideal);
-        for value in scaled.mass.values_mut().chain(vectors) {
-            // Term by term, so that the factor cancels where it can.
-            let terms = g.open(1.0, *value);
-            let divided = terms.into_iter().map(|(k, term)| (k, g.div(term, factor)));
-            let divided: Vec<(f64, Id)> = divided.collect();
-            *value = g.sum(&divided);
-        }
-    }
-    (factor, scaled)
-}
-
-/// The magnitude that the coefficients of all entries of a row of A share, if it is a power of two (so that dividing is exact); else 1.
-fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
-    let mut sizes = d.row(row).map(|(_, a)| match g.as_const(a) {
-        Some(x) => x.abs(),
-        None => g.unscaled(a).0.abs(),
-    });
-    match sizes.next() {
-        Some(first) if is_power_of_two(first) && sizes.all(|s| s == first) => first,
-        _ => 1.0,
-    }
 }

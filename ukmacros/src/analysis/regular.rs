@@ -193,37 +193,20 @@ struct States<'a> {
 }
 
 impl<'a> States<'a> {
+    /// Evaluates a block of the equations `d` where they can be.
     fn of(block: &Block, d: &Dynamics, defaults: &'a [f64], g: &Graph) -> Self {
-        let n = d.force.len();
         let k = block.coordinates.len();
         let mut ids = Vec::with_capacity(k * k);
         for i in &block.coordinates {
             let entry = |j: &usize| d.mass.get(&((*i).max(*j), (*i).min(*j)));
             ids.extend(block.coordinates.iter().map(|j| entry(j).copied()));
         }
-        let present: Vec<Id> = ids.iter().flatten().copied().collect();
-        let mut random = Random::new(5);
-        let generic = if block.constant { 1 } else { GENERIC };
-        let probes = (0..generic).map(|_| Probe::signed(defaults, n, &mut random));
-        let mut probes: Vec<Probe<'_>> = probes.collect();
-        let coordinate = |s| match s {
-            Symbol::Coord(i) => Some(i),
-            _ => None,
-        };
-        let support = present.iter().flat_map(|id| g.support(*id));
-        let support: BTreeSet<usize> = support.filter_map(coordinate).collect();
-        for zeros in choices(&support.into_iter().collect::<Vec<_>>()) {
-            if k <= LARGE {
-                let mut probe = Probe::signed(defaults, n, &mut random);
-                zeros.iter().for_each(|i| probe.q[*i] = 0.0);
-                probes.push(probe);
-            }
-        }
+        let mut all: Vec<Id> = ids.iter().flatten().copied().collect();
+        let (probes, generic) = probes(block, &all, d.force.len(), defaults, g);
         // Rows that may be added: with inertia at each of their coordinates.
         let inert = |i: usize| d.mass.contains_key(&(i, i));
         let usable = |row: &&usize| d.row(**row).all(|(i, _)| inert(i));
         let candidates: Vec<usize> = block.rows.iter().filter(usable).copied().collect();
-        let mut all = present;
         for row in &candidates {
             let own = d.row(*row).filter(|(i, _)| block.coordinates.contains(i));
             all.extend(own.map(|(_, a)| a));
@@ -240,12 +223,11 @@ impl<'a> States<'a> {
             scaled: Vec::new(),
             rows: candidates.iter().map(|row| (*row, Vec::new())).collect(),
         };
-        let mut matrices = Vec::new();
         for values in &values {
             let mut values = values.iter().copied();
             let mut value = || values.next().unwrap_or(f64::NAN);
             let matrix = ids.iter().map(|id| id.map_or(0.0, |_| value()));
-            matrices.push(matrix.collect::<Vec<f64>>());
+            states.scaled.push(matrix.collect());
             for (row, at) in &mut states.rows {
                 let mut dense = vec![0.0; k];
                 for (i, _) in d.row(*row) {
@@ -256,26 +238,30 @@ impl<'a> States<'a> {
                 at.push(dense);
             }
         }
+        states.scale(k);
+        states
+    }
+
+    /// Makes entries of different units comparable; rows get the length 1.
+    fn scale(&mut self, k: usize) {
         let largest = |i: usize| {
-            let own = matrices.iter().map(|m| m[i * k + i]);
+            let own = self.scaled.iter().map(|m| m[i * k + i]);
             own.fold(0.0_f64, f64::max).sqrt()
         };
         let unit = |s: f64| if s > 0.0 { s } else { 1.0 };
         let scale: Vec<f64> = (0..k).map(largest).map(unit).collect();
-        for mut matrix in matrices {
+        for matrix in &mut self.scaled {
             for (at, x) in matrix.iter_mut().enumerate() {
                 *x /= scale[at / k] * scale[at % k];
             }
-            states.scaled.push(matrix);
         }
-        for row in states.rows.iter_mut().flat_map(|(_, at)| at) {
+        for row in self.rows.iter_mut().flat_map(|(_, at)| at) {
             row.iter_mut().zip(&scale).for_each(|(a, s)| *a /= s);
             let length = row.iter().map(|a| a * a).sum::<f64>().sqrt();
             if length > 0.0 {
                 row.iter_mut().for_each(|a| *a /= length);
             }
         }
-        states
     }
 
     /// Rank of the block at a state, with `rows` added.
@@ -361,6 +347,35 @@ impl<'a> States<'a> {
         let least = open.fold(f64::INFINITY, f64::min);
         least.is_nan() || least * VARIES < 1.0
     }
+}
+
+/// States of `n` coordinates to look at a block at, with these entries; and how many of them, the first ones, are random.
+fn probes<'a>(
+    block: &Block,
+    entries: &[Id],
+    n: usize,
+    defaults: &'a [f64],
+    g: &Graph,
+) -> (Vec<Probe<'a>>, usize) {
+    let mut random = Random::new(5);
+    let generic = if block.constant { 1 } else { GENERIC };
+    let probes = (0..generic).map(|_| Probe::signed(defaults, n, &mut random));
+    let mut probes: Vec<Probe<'_>> = probes.collect();
+    if block.coordinates.len() > LARGE {
+        return (probes, generic);
+    }
+    let support = entries.iter().flat_map(|id| g.support(*id));
+    let support = support.filter_map(|symbol| match symbol {
+        Symbol::Coord(i) => Some(i),
+        _ => None,
+    });
+    let support: BTreeSet<usize> = support.collect();
+    for zeros in choices(&support.into_iter().collect::<Vec<_>>()) {
+        let mut probe = Probe::signed(defaults, n, &mut random);
+        zeros.iter().for_each(|i| probe.q[*i] = 0.0);
+        probes.push(probe);
+    }
+    (probes, generic)
 }
 
 /// Which of `coordinates` are zero.

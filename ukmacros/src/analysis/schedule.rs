@@ -46,54 +46,83 @@ pub(crate) fn schedule(
     sequence: Sequence<'_>,
 ) -> Program {
     let needed = g.reachable(roots);
-    let uses = count_uses(g, roots, &needed);
-    let is_needed = |id: Id| uses.get(id.index()).is_some_and(|n| *n > 0);
-    let reciprocals = reciprocals(g, &needed);
-    let pair = |id: Id| -> Option<(Id, Id)> {
-        let Node::Call(func @ (Func::Sin | Func::Cos), args) = g.node(id) else {
-            return None;
-        };
-        let other_func = if *func == Func::Sin {
-            Func::Cos
-        } else {
-            Func::Sin
-        };
-        let other = g.find_call(other_func, args[0]).filter(|o| is_needed(*o))?;
-        Some(if *func == Func::Sin {
-            (id, other)
-        } else {
-            (other, id)
-        })
-    };
-    let variable = |id: Id| match g.node(id) {
-        Node::Const(_) | Node::Symbol(_) => false,
-        // A sign is cheaper than a variable.
-        Node::Scale(c, _) if c.get() == -1.0 => false,
-        Node::Held(_) => true,
-        // Its reciprocal's variable serves.
-        Node::Product(factors) if matches!(factors[..], [(base, -1)] if reciprocals.contains(&base)) => {
-            false
-        }
-        _ => uses[id.index()] > 1 || named(id) || pair(id).is_some(),
-    };
-    let mut steps = Vec::new();
-    let mut done = vec![false; uses.len()];
     let calls = match sequence {
         Sequence::Roots => Vec::new(),
         Sequence::Stages(_) => first_calls(g, &needed),
     };
-    let called: Set<Id> = calls.iter().copied().collect();
-    let variable = |id: Id| variable(id) || called.contains(&id);
+    let variables = Variables {
+        g,
+        uses: count_uses(g, roots, &needed),
+        reciprocals: reciprocals(g, &needed),
+        named: |id| named(id) || calls.contains(&id),
+    };
     let mut goals: Vec<(Id, Option<usize>)> = calls.iter().map(|id| (*id, None)).collect();
     let mut stores: Vec<usize> = (0..roots.len()).collect();
     if let Sequence::Stages(stages) = sequence {
-        let stages = stages.iter().flat_map(|id| g.open_products(*id, is_needed));
+        let needed = |id| variables.is_needed(id);
+        let stages = stages.iter().flat_map(|id| g.open_products(*id, needed));
         goals.extend(stages.map(|id| (id, None)));
         stores.sort_by_key(|k| g.latency(roots[*k]));
     }
     goals.extend(stores.into_iter().map(|k| (roots[k], Some(k))));
+    let mut steps = Vec::new();
+    let mut done = vec![false; variables.uses.len()];
     for (goal, store) in goals {
-        // Depth-first, operands before users, without recursion.
+        variables.reach(goal, &mut done, &mut steps);
+        steps.extend(store.map(Step::Store));
+    }
+    Program {
+        steps,
+        needed,
+        reciprocals: variables.reciprocals,
+    }
+}
+
+/// What becomes a variable.
+struct Variables<'a, N> {
+    g: &'a Graph,
+    /// How often each node is read, by its index.
+    uses: Vec<usize>,
+    reciprocals: Set<Id>,
+    /// Whether a node has one though it is read once.
+    named: N,
+}
+
+impl<N: Fn(Id) -> bool> Variables<'_, N> {
+    /// Whether a node is read at all.
+    fn is_needed(&self, id: Id) -> bool {
+        self.uses.get(id.index()).is_some_and(|n| *n > 0)
+    }
+
+    /// The sine and cosine, both needed, of which `id` is one.
+    fn pair(&self, id: Id) -> Option<(Id, Id)> {
+        let Node::Call(func @ (Func::Sin | Func::Cos), args) = self.g.node(id) else {
+            return None;
+        };
+        let sine = *func == Func::Sin;
+        let other = if sine { Func::Cos } else { Func::Sin };
+        let other = self.g.find_call(other, args[0]);
+        let other = other.filter(|other| self.is_needed(*other))?;
+        Some(if sine { (id, other) } else { (other, id) })
+    }
+
+    /// Whether a node is one; sine and cosine of one argument are two beside these.
+    fn contain(&self, id: Id) -> bool {
+        match self.g.node(id) {
+            Node::Const(_) | Node::Symbol(_) => false,
+            // A sign is cheaper than a variable.
+            Node::Scale(c, _) if c.get() == -1.0 => false,
+            Node::Held(_) => true,
+            // Its reciprocal's variable serves.
+            Node::Product(factors) if matches!(factors[..], [(base, -1)] if self.reciprocals.contains(&base)) => {
+                false
+            }
+            _ => self.uses[id.index()] > 1 || (self.named)(id),
+        }
+    }
+
+    /// Takes the steps to `goal` that are not `done`: depth-first, operands before users, without recursion.
+    fn reach(&self, goal: Id, done: &mut [bool], steps: &mut Vec<Step>) {
         let mut stack = vec![(goal, false)];
         while let Some((id, expanded)) = stack.pop() {
             if done[id.index()] {
@@ -102,30 +131,23 @@ pub(crate) fn schedule(
             if !expanded {
                 stack.push((id, true));
                 let first = stack.len();
-                g.each_operand(id, |operand| stack.push((operand, false)));
+                (self.g).each_operand(id, |operand| stack.push((operand, false)));
                 stack[first..].reverse();
                 continue;
             }
             done[id.index()] = true;
-            // A reciprocal directly after its base.
-            let recip = reciprocals.contains(&id);
-            if let Some((sin, cos)) = pair(id) {
+            if let Some((sin, cos)) = self.pair(id) {
                 done[sin.index()] = true;
                 done[cos.index()] = true;
                 steps.push(Step::SinCos { sin, cos });
-            } else if variable(id) {
+            } else if self.contain(id) {
                 steps.push(Step::Let(id));
             }
-            if recip {
+            // A reciprocal directly after its base.
+            if self.reciprocals.contains(&id) {
                 steps.push(Step::Reciprocal(id));
             }
         }
-        steps.extend(store.map(Step::Store));
-    }
-    Program {
-        steps,
-        needed,
-        reciprocals,
     }
 }
 

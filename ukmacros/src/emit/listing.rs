@@ -1,7 +1,7 @@
 //! The derived equations as text, for rustdoc and `SPEC`.
 
 use super::names::{Namer, Slots};
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Dynamics};
 use crate::expr::{
     Block, Formula, Id, Kind, Letters, Map, Name, Node, Printer, Symbol, System, families,
 };
@@ -58,20 +58,10 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let taken = declared.map(|f| f.name.to_string());
     let taken: HashSet<String> = taken.chain(system.hints.values().cloned()).collect();
     let definitions = abbreviate(system, &roots, &taken, &mut printer);
+    name_unique(system, &mut printer);
     let g = &system.graph;
-    let several: HashSet<&Id> = system.unique.iter().collect();
-    for (row, unique) in system.unique.iter().enumerate() {
-        let name = match several.len() {
-            1 => "unique".to_owned(),
-            _ => format!("unique_{}", constraints[row]),
-        };
-        if !g.operands(*unique).is_empty() {
-            printer.named.entry(*unique).or_insert(name);
-        }
-    }
     let letters = Letters::beside(&taken);
     let fold = |blocks: Vec<Block>| families(blocks, &letters);
-    let name = |text: &String| Name::from(text.as_str());
     let vector = |letter: &'static str, ids: &[Id]| {
         let present = ids.iter().zip(&coords).filter(|(id, _)| !g.is_zero(**id));
         let rows = present.map(|(id, coord)| {
@@ -84,41 +74,11 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
         let entry = Formula::Entry("M", vec![name(&coords[*i]), name(&coords[*j])]);
         Block::from(entry.equal(printer.formula(*id)))
     });
-    let rows = (0..phis.len()).map(|row| {
-        let label = || name(&constraints[row]);
-        let zero = printer.formula(phis[row]).equal(Formula::Number(0.0));
-        let title = match system.constraints[row].kind {
-            Kind::Holonomic => label(),
-            Kind::Nonholonomic => {
-                Name::from(format!("{} (nonholonomic)", constraints[row]).as_str())
-            }
-        };
-        let first = Formula::Labelled(title, Box::new(zero));
-        let entries = dynamics.row(row).map(|(j, id)| {
-            let entry = Formula::Entry("A", vec![label(), name(&coords[j])]);
-            entry.equal(printer.formula(id))
-        });
-        let b = Formula::Entry("b", vec![label()]).equal(printer.formula(dynamics.rhs[row]));
-        Block::from(
-            [first]
-                .into_iter()
-                .chain(entries)
-                .chain([b])
-                .collect::<Vec<_>>(),
-        )
-    });
+    let rows = (0..phis.len()).map(|row| constraint(row, system, dynamics, &printer));
     let names = prepared_names(system, model, prepared);
-    let texts = prepared.iter().map(|id| match g.node(*id) {
-        _ if system.unique.contains(id) => {
-            "1; not a number where reactions are not unique".to_owned()
-        }
-        // The part of the certificate that parameters decide.
-        Node::Select(_) => format!(
-            "1 if the pivots that depend on {} alone are positive and finite, else 0",
-            parameters_of(*id, system, &params)
-        ),
-        _ => printer.text(*id),
-    });
+    let texts = prepared
+        .iter()
+        .map(|id| prepared_text(*id, system, &printer));
     let switches = analysis.switches.iter();
     let switches = switches.map(|s| (printer.text(s.function), s.terms.clone()));
     Listing {
@@ -133,6 +93,59 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
             .map(|id| format!("{} = 0", printer.text(*id)))
             .collect(),
         definitions: fold(definitions),
+    }
+}
+
+/// A coordinate or constraint, as it is written.
+fn name(text: &str) -> Name {
+    Name::from(text)
+}
+
+/// A constraint, with its row of A q̈ = b.
+fn constraint(row: usize, system: &System, dynamics: &Dynamics, printer: &Printer<'_>) -> Block {
+    let text = &printer.constraints[row];
+    let title = match system.constraints[row].kind {
+        Kind::Holonomic => name(text),
+        Kind::Nonholonomic => name(&format!("{text} (nonholonomic)")),
+    };
+    let zero = printer.formula(system.constraints[row].phi);
+    let zero = zero.equal(Formula::Number(0.0));
+    let first = Formula::Labelled(title, Box::new(zero));
+    let entries = dynamics.row(row).map(|(j, id)| {
+        let entry = Formula::Entry("A", vec![name(text), name(&printer.coords[j])]);
+        entry.equal(printer.formula(id))
+    });
+    let b = Formula::Entry("b", vec![name(text)]).equal(printer.formula(dynamics.rhs[row]));
+    let lines = [first].into_iter().chain(entries).chain([b]);
+    Block::from(lines.collect::<Vec<_>>())
+}
+
+/// A prepared value, as it is to be read.
+fn prepared_text(id: Id, system: &System, printer: &Printer<'_>) -> String {
+    match system.graph.node(id) {
+        _ if system.unique.contains(&id) => {
+            "1; not a number where reactions are not unique".to_owned()
+        }
+        // The part of the certificate that parameters decide.
+        Node::Select(_) => format!(
+            "1 if the pivots that depend on {} alone are positive and finite, else 0",
+            parameters_of(id, system, printer.params)
+        ),
+        _ => printer.text(id),
+    }
+}
+
+/// Names what reactions are multiplied by, which is 1 where they are unique.
+fn name_unique(system: &System, printer: &mut Printer<'_>) {
+    let several: HashSet<&Id> = system.unique.iter().collect();
+    for (unique, constraint) in system.unique.iter().zip(printer.constraints) {
+        let name = match several.len() {
+            1 => "unique".to_owned(),
+            _ => format!("unique_{constraint}"),
+        };
+        if !system.graph.operands(*unique).is_empty() {
+            printer.named.entry(*unique).or_insert(name);
+        }
     }
 }
 

@@ -452,18 +452,43 @@ impl Driver<'_> {
     }
 
     /// Refuses a step that is not planned for the position `found`.
-    fn judge(&mut self, mut found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
-        let Equations {
-            course,
-            problem,
-            switches,
-            ..
-        } = &mut self.equations;
-        let here = Sample::of(course.now.t, self.scheme.start());
+    fn judge(&mut self, found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
         self.passage.met = true;
+        let found = self.as_known_best(found);
+        let Some(gap) = self.gap else {
+            self.passage.ahead = Some(found);
+            return Err(Refusal::Unplanned);
+        };
+        self.decide(&found, trial, made)?;
+        let good = self.suits(&found, trial, gap);
+        let (course, passage) = (&mut self.equations.course, &mut self.passage);
+        // Stages of a step that is far too long tell nothing of the motion.
+        if made && good && found.gap > 0.0 && course.ahead(found.t) > 4.0 * found.gap {
+            passage.turns = passage.turns.max(found.rate);
+        }
+        if passage.ahead.is_none() {
+            (passage.untried, passage.faint, passage.missed) = (true, None, None);
+        }
+        passage.ahead = Some(found);
+        if good {
+            return Ok(());
+        }
+        passage.plans += 1;
+        if passage.plans.is_multiple_of(PLANS) {
+            course.h *= 0.5;
+        }
+        Err(Refusal::Unplanned)
+    }
+
+    /// The position `found`, as what knows it best tells it.
+    fn as_known_best(&mut self, mut found: Singular) -> Singular {
+        let Equations {
+            course, problem, ..
+        } = &mut self.equations;
         let left = course.ahead(found.t);
         if self.gap.is_some() && found.gap >= 0.0 && left > 0.0 {
             // Where the run stands is known better than a stage, which may lie far off, or be of a step that is far too long.
+            let here = Sample::of(course.now.t, self.scheme.start());
             let own = problem.singular(Purpose::Interpolant, Some(here));
             let own = own.filter(|own| {
                 let nearer = found.gap == 0.0 && own.significance <= found.significance;
@@ -480,63 +505,54 @@ impl Driver<'_> {
         {
             found.t = known.t;
         }
+        found
+    }
+
+    /// Refuses a step where nothing tells how the motion goes on at the position `found`: nearer to it more can be told, if only when it is
+    /// met.
+    fn decide(&mut self, found: &Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
+        let (course, passage) = (&mut self.equations.course, &mut self.passage);
         let left = course.ahead(found.t);
-        let Some([from, to]) = self.gap else {
-            self.passage.ahead = Some(found);
-            return Err(Refusal::Unplanned);
-        };
-        // Where the run stands: a stage of a step that comes to nothing may be near by chance.
-        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.rate * left < CLOSE;
         let undecided = found.gap.is_nan() && left > 0.0;
-        if undecided && !made && self.passage.ahead.is_none() && self.passage.plans < PLANS {
-            // So may one of a step that is far too long.
-            self.passage.plans += 1;
-            course.h = 0.5 * trial.h;
-            return Err(Refusal::Unplanned);
-        }
-        // Nearer to it more can be told, if only when it is met.
+        // Where the run stands: a stage of a step that comes to nothing may be near by chance; so may one of a step that is far too long.
+        let known = passage.ahead.is_some();
+        let close = known && found.gap == 0.0 && found.rate * left < CLOSE;
         let way = course.now.s.abs() + left;
-        if undecided && made && left > MET * way && self.passage.plans < PLANS {
-            self.passage.plans += 1;
-            course.h = course.along * UP_TO * left;
+        let nearer = match made {
+            true => (left > MET * way).then_some(course.along * UP_TO * left),
+            false => (!known).then_some(0.5 * trial.h),
+        };
+        let nearer = nearer.filter(|_| undecided && passage.plans < PLANS);
+        if let Some(h) = nearer {
+            passage.plans += 1;
+            course.h = h;
             return Err(Refusal::Unplanned);
         }
         if undecided || close && left > 0.0 {
-            let constraints = found.constraints;
+            let constraints = found.constraints.clone();
             let error = Error::Singular { constraints };
+            let here = Sample::of(course.now.t, self.scheme.start());
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
         }
+        Ok(())
+    }
+
+    /// Whether a step with this gap between its stages is planned for a position.
+    fn suits(&self, found: &Singular, trial: Trial, [from, to]: [f64; 2]) -> bool {
+        let left = self.equations.course.ahead(found.t);
         let (size, middle) = (trial.h.abs(), 0.5 * (from + to));
-        let good = if found.gap > 0.0 {
-            size <= 0.51 * left.hypot(found.gap)
+        if found.gap > 0.0 {
+            return size <= 0.51 * left.hypot(found.gap);
         } else if left <= 0.0 {
-            true
+            return true;
         } else if self.passage.passing {
-            (left - middle * size).abs() <= OFF * size
-        } else {
-            // No further than where the next step, as long, goes over it: one held to less would be shorter each time, and never get there.
-            let most = left * (1.0 + OFF) / (1.0 + middle);
-            // A run that ends so near before it that a step over it may go on behind its end is to be read off that.
-            let bounded = self.passage.bounded || !switches.is_empty();
-            let before = bounded || left - size > OFF * left / middle;
-            size <= most.max(0.51 * left) || trial.last && size < left && before
-        };
-        // Stages of a step that is far too long tell nothing of the motion.
-        if made && good && found.gap > 0.0 && left > 4.0 * found.gap {
-            self.passage.turns = self.passage.turns.max(found.rate);
+            return (left - middle * size).abs() <= OFF * size;
         }
-        if self.passage.ahead.is_none() {
-            (self.passage.untried, self.passage.faint) = (true, None);
-            self.passage.missed = None;
-        }
-        self.passage.ahead = Some(found);
-        if good {
-            return Ok(());
-        }
-        self.passage.plans += 1;
-        if self.passage.plans.is_multiple_of(PLANS) {
-            course.h *= 0.5;
-        }
-        Err(Refusal::Unplanned)
+        // No further than where the next step, as long, goes over it: one held to less would be shorter each time, and never get there.
+        let most = left * (1.0 + OFF) / (1.0 + middle);
+        // A run that ends so near before it that a step over it may go on behind its end is to be read off that.
+        let bounded = self.passage.bounded || !self.equations.switches.is_empty();
+        let before = bounded || left - size > OFF * left / middle;
+        size <= most.max(0.51 * left) || trial.last && size < left && before
     }
 }

@@ -124,40 +124,17 @@ impl Switches {
         *known_at = time(1.0);
         let outside = |k: usize| self.inside(k, known[k]) < 0.0 && !self.targets.contains(&k);
         self.doubt |= (0..count).any(outside);
-        let mut rough = false;
-        if self.branches.contains(&Branch::Followed) {
-            // What is followed changes its sign once, and not long before the end: else there is more to it than the estimate of the
-            // error, made at some places, can tell.
-            look(NEAR, values);
-            let soon = values.clone();
-            look(0.5, values);
-            let changes = |k: usize| soon[k] * values[k] < 0.0;
-            rough = (0..count).any(|k| self.branches[k] == Branch::Followed && changes(k));
-        }
+        let mut rough = self.turns_early(&mut look, values);
         for k in 0..count {
             if self.branches[k] == Branch::Followed || self.targets.contains(&k) {
                 continue;
             }
             let at = |place: usize| self.inside(k, looks[place * count + k]);
-            let range = (0..places.len()).fold(0.0_f64, |most, place| most.max(at(place).abs()));
-            let mut search = |a: f64, b: f64| -> Option<f64> {
-                let g = |theta: f64| -> Result<f64, Infallible> {
-                    look(theta, values);
-                    Ok(self.inside(k, values[k]))
-                };
-                let Ok(place) = below(g, -DEPTH * range, a, b);
-                place
+            let value = |theta: f64| {
+                look(theta, values);
+                self.inside(k, values[k])
             };
-            if free {
-                rough |= is_rough(places.len(), at, range);
-                for place in 1..places.len() - 1 {
-                    if at(place - 1) > at(place) && at(place) <= at(place + 1) {
-                        found.extend(search(places[place - 1], places[place + 1]));
-                    }
-                }
-            } else if may_dip([0, 1, 2, 3].map(at), range) {
-                found.extend(search(0.0, 1.0));
-            }
+            rough |= search(places, at, value, &mut found);
         }
         (self.buffers, self.dips) = (buffers, found);
         match self.dips.is_empty() {
@@ -166,6 +143,46 @@ impl Switches {
             true => Seen::Whole,
         }
     }
+
+    /// Whether what is followed changes its sign in the first half of a step, as `look` has it. It does so once, and not long before the
+    /// end: else there is more to it than the estimate of the error, made at some places, can tell.
+    fn turns_early(&self, mut look: impl FnMut(f64, &mut [f64]), values: &mut [f64]) -> bool {
+        if !self.branches.contains(&Branch::Followed) {
+            return false;
+        }
+        look(NEAR, values);
+        let soon = values.to_vec();
+        look(0.5, values);
+        let changes = |k: usize| soon[k] * values[k] < 0.0;
+        (0..soon.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
+    }
+}
+
+/// Adds to those `found` the places where a function, known `at` some `places` of a step, gets below zero. Whether it is too rough to tell.
+fn search(
+    places: &[f64],
+    at: impl Fn(usize) -> f64 + Copy,
+    mut value: impl FnMut(f64) -> f64,
+    found: &mut Vec<f64>,
+) -> bool {
+    let range = (0..places.len()).fold(0.0_f64, |most, place| most.max(at(place).abs()));
+    let mut within = |a: f64, b: f64| {
+        let g = |theta: f64| -> Result<f64, Infallible> { Ok(value(theta)) };
+        let Ok(place) = below(g, -DEPTH * range, a, b);
+        found.extend(place);
+    };
+    if *places == ENDS {
+        if may_dip([0, 1, 2, 3].map(at), range) {
+            within(0.0, 1.0);
+        }
+        return false;
+    }
+    for place in 1..places.len() - 1 {
+        if at(place - 1) > at(place) && at(place) <= at(place + 1) {
+            within(places[place - 1], places[place + 1]);
+        }
+    }
+    is_rough(places.len(), at, range)
 }
 
 /// Whether a function with these values along a step has more extrema than they show for certain, and may get to zero at one of them.

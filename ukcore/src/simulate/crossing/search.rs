@@ -237,42 +237,12 @@ impl<'a> Search<'a> {
         let u = self.directions[0].clone();
         self.settle(&u)?;
         self.share();
-        let k = self.directions.len();
-        // f, its slopes and its second derivatives, for each of its components.
         let phi = self.position();
-        let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
+        let mut rounding = vec![0.0; phi.len()];
         (self.noise).go(self.mech, self.t, [&self.q, &u], |_| [0.0; 2]);
         self.noise.residual(&mut rounding);
-        self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
-        let a = self.terms.rows();
-        let mut slopes = vec![rate];
-        for w in &self.directions[1..] {
-            slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());
-        }
-        let curvatures = self.curvatures();
-        let equations = self.shares.len() * k;
-        let mut system = Decomposition::new(equations, k);
-        let mut right = Vec::with_capacity(equations);
-        let matrix = system.load(equations);
-        for (j, shares) in self.shares.iter().enumerate() {
-            for (row, slope) in slopes.iter().enumerate() {
-                right.push(-dot(shares, slope));
-                for column in 0..k {
-                    matrix[(j * k + row) * k + column] = dot(shares, &curvatures[row * k + column]);
-                }
-            }
-        }
-        let matrix = matrix.to_vec();
-        let largest = largest(&matrix);
-        if !(largest > 0.0 && largest < f64::INFINITY) {
-            return None;
-        }
-        system.factor(&vec![1.0; k], &vec![largest.recip(); equations], 1e-6);
-        if system.rank() < k {
-            return None;
-        }
-        let mut step = vec![0.0; k];
-        system.solve(&right, &mut step);
+        let system = self.system(&u)?;
+        let step = system.step()?;
         let size = dot(&step, &step).sqrt();
         if self.reach == 0.0 {
             self.reach = size;
@@ -281,22 +251,62 @@ impl<'a> Search<'a> {
         if size.is_nan() || size > WIDEST * self.reach {
             return None;
         }
-        let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(
-            0.0,
-            |most: f64, (right, rows)| {
-                let pairs = right.iter().zip(rows.chunks_exact(k));
-                pairs.fold(most, |most, (b, row)| most.max((b - dot(row, &step)).abs()))
-            },
-        );
+        self.t += step[0];
+        for (direction, part) in self.directions.iter().zip(&step) {
+            axpy(*part, direction, &mut self.q);
+        }
+        self.verdict(&system, &step, [&phi, &rounding])
+    }
+
+    /// The equations of a Newton step: slopes and second derivatives of f, for each of its components.
+    fn system(&mut self, u: &[f64]) -> Option<System> {
+        let (k, m) = (self.directions.len(), self.mech.spec().m());
+        let mut rate = vec![0.0; m];
+        self.mech.residual_rate(self.t, &self.q, u, &mut rate);
+        let a = self.terms.rows();
+        let mut slopes = vec![rate];
+        for w in &self.directions[1..] {
+            slopes.push((0..m).map(|c| a.product(c, w)).collect());
+        }
+        let curvatures = self.curvatures();
+        let equations = self.shares.len() * k;
+        let mut right = Vec::with_capacity(equations);
+        let mut matrix = Vec::with_capacity(equations * k);
+        for shares in &self.shares {
+            for (row, slope) in slopes.iter().enumerate() {
+                right.push(-dot(shares, slope));
+                let seconds = &curvatures[row * k..(row + 1) * k];
+                matrix.extend(seconds.iter().map(|second| dot(shares, second)));
+            }
+        }
+        let largest = largest(&matrix);
+        (largest > 0.0 && largest < f64::INFINITY).then_some(System {
+            right,
+            matrix,
+            largest,
+        })
+    }
+
+    /// What is found where a step of a system with these residuals has led to, if it is the last one; `None` if there is nothing.
+    fn verdict(
+        &mut self,
+        system: &System,
+        step: &[f64],
+        [phi, rounding]: [&[f64]; 2],
+    ) -> Option<Option<Singular>> {
+        let (k, largest, size) = (step.len(), system.largest, dot(step, step).sqrt());
+        let left = system.left(step);
+        let parts = system.right.chunks_exact(k);
+        let parts = parts.zip(system.matrix.chunks_exact(k * k));
         let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
-        for (j, shares) in self.shares.iter().enumerate() {
+        for (shares, (right, matrix)) in self.shares.iter().zip(parts) {
             // One alone is critical where the search has come to.
             let differs = match self.shares.len() {
                 1 => 0.0,
-                _ => least(k, &matrix[j * k * k..], &right[j * k..], largest),
+                _ => least(matrix, right, largest),
             };
-            let e = dot(shares, &phi) + differs;
-            let pairs = shares.iter().zip(&rounding);
+            let e = dot(shares, phi) + differs;
+            let pairs = shares.iter().zip(rounding);
             let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
                 + largest * (f64::EPSILON * self.scale).powi(2);
             last &= largest * size * size <= noise;
@@ -305,10 +315,6 @@ impl<'a> Search<'a> {
                 open = open.max(e.abs());
                 doubt |= e.abs() <= GAP * noise;
             }
-        }
-        self.t += step[0];
-        for (direction, part) in self.directions.iter().zip(&step) {
-            axpy(*part, direction, &mut self.q);
         }
         if !last {
             return Some(None);
@@ -438,15 +444,47 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The amount by which a function with these second derivatives by k directions, among the first numbers of `second`, and these slopes,
-/// negative, among those of `down`, differs where it is critical from what it is: not quite where others are that vanish with it.
-fn least(k: usize, second: &[f64], down: &[f64], largest: f64) -> f64 {
-    let mut system = Decomposition::new(k, k);
-    system.load(k).copy_from_slice(&second[..k * k]);
-    system.factor(&vec![1.0; k], &vec![largest.recip(); k], 1e-6);
-    let mut step = vec![0.0; k];
-    system.solve(&down[..k], &mut step);
-    -0.5 * dot(&down[..k], &step)
+/// Equations of a step along k directions, k for each component of f.
+struct System {
+    right: Vec<f64>,
+    /// Row by row.
+    matrix: Vec<f64>,
+    /// The largest of its numbers.
+    largest: f64,
+}
+
+impl System {
+    /// The solution, if there is one.
+    fn step(&self) -> Option<Vec<f64>> {
+        let (step, rank) = solution(&self.matrix, &self.right, self.largest);
+        (rank == step.len()).then_some(step)
+    }
+
+    /// The largest of what `step` leaves.
+    fn left(&self, step: &[f64]) -> f64 {
+        let rows = self.matrix.chunks_exact(step.len());
+        let pairs = self.right.iter().zip(rows);
+        let left = pairs.map(|(b, row)| (b - dot(row, step)).abs());
+        left.fold(0.0, f64::max)
+    }
+}
+
+/// The solution of equations whose numbers are of a size, and the rank of their `matrix`, which is row by row.
+fn solution(matrix: &[f64], right: &[f64], size: f64) -> (Vec<f64>, usize) {
+    let (equations, k) = (right.len(), matrix.len() / right.len());
+    let mut system = Decomposition::new(equations, k);
+    system.load(equations).copy_from_slice(matrix);
+    system.factor(&vec![1.0; k], &vec![size.recip(); equations], 1e-6);
+    let mut x = vec![0.0; k];
+    system.solve(right, &mut x);
+    (x, system.rank())
+}
+
+/// The amount by which a function with these second derivatives by directions, and these slopes, negative, differs where it is critical
+/// from what it is: not quite where others are that vanish with it.
+fn least(second: &[f64], down: &[f64], largest: f64) -> f64 {
+    let (step, _) = solution(second, down, largest);
+    -0.5 * dot(down, &step)
 }
 
 /// Takes off `x` its parts along orthonormal vectors.

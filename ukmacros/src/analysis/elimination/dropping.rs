@@ -68,16 +68,14 @@ pub(super) fn least(reference: Id, g: &mut Graph) -> Id {
     g.scale(-NOTHING, reference)
 }
 
-/// What there is to check of the rows that may be left out, where `motion` solves the equations of `d` with the right-hand sides `force`
-/// and `rhs`.
+/// What there is to check of the rows that may be left out, where `motion` solves the equations of `d`.
 pub(super) fn droppings(
     factors: &[Factor],
     motion: &Solution,
     d: &Dynamics,
-    [force, rhs]: [&[Id]; 2],
     g: &mut Graph,
 ) -> Vec<Dropping> {
-    let n = force.len();
+    let n = d.force.len();
     let steps = factors.iter().zip(&motion.rights);
     let singles = steps.filter_map(|step| match step {
         (Factor::Single(single), Some(right)) => Some((single, right)),
@@ -88,9 +86,9 @@ pub(super) fn droppings(
         return Vec::new();
     }
     // N² of each part.
-    let mut parts = parts(factors, n + rhs.len());
+    let mut parts = parts(factors, n + d.rhs.len());
     let mut squares: BTreeMap<usize, Vec<(f64, Id)>> = BTreeMap::new();
-    for (i, (x, q)) in motion.coordinates.iter().zip(force).enumerate() {
+    for (i, (x, q)) in motion.coordinates.iter().zip(&d.force).enumerate() {
         if let Some(m) = d.mass.get(&(i, i)) {
             let done = g.product(&[(*x, 2), (*m, 1)]);
             let free = g.product(&[(*q, 2), (*m, -1)]);
@@ -101,7 +99,7 @@ pub(super) fn droppings(
     let dropped = dropped.into_iter().map(|(single, right)| {
         let squares = squares.get(&parts.of(single.at));
         let square = g.sum(squares.map_or(&[], |squares| squares));
-        let own = g.square(rhs[single.at - n]);
+        let own = g.square(d.rhs[single.at - n]);
         let size = g.mul(single.reference, square);
         Dropping {
             at: single.at,

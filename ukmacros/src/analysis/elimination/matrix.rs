@@ -87,18 +87,17 @@ pub(super) struct Single {
 }
 
 impl<'a> Matrix<'a> {
-    /// K = [M Aᵀ; A 0] of a task, with the given A.
+    /// K = [M Aᵀ; A 0] of a task, as `d` has it.
     pub(super) fn new(
         d: &Dynamics,
         task: &Task<'a>,
-        jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
         droppable: BTreeSet<usize>,
         g: &Graph,
     ) -> Self {
         let n = d.force.len();
         let size = n + d.rhs.len();
-        let jacobian = jacobian.iter();
+        let jacobian = d.jacobian.iter();
         let below = jacobian.map(|((row, column), a)| ((n + row, *column), *a));
         let declared = d.mass.iter().map(|(at, m)| (*at, *m)).chain(below);
         let (mut entries, mut rows) = (BTreeMap::new(), vec![BTreeSet::new(); size]);

@@ -44,43 +44,7 @@ impl<'m> Lowering<'m> {
                 let message = "accelerations are what is solved for; no section may use them";
                 return self.error_once(name, message);
             }
-            "powi" => {
-                let [base, exponent] = args else {
-                    return self.arity(name, 2, args.len());
-                };
-                let base = self.number(base, env);
-                if let ExprKind::Float(number) = exponent.kind {
-                    let message = format!(
-                        "`powi` takes a whole exponent, such as `2`; write `powf({number:?})`"
-                    );
-                    return self.error(exponent.loc, message);
-                }
-                if let ExprKind::Name(given) = &exponent.kind
-                    && env
-                        .scope
-                        .integer(exponent, &Diagnostics::default())
-                        .is_none()
-                {
-                    let message = format!(
-                        "`{given}` is not an integer constant, which `powi` takes; others go with `powf`"
-                    );
-                    return self.error(exponent.loc, message);
-                }
-                let (Some(base), Some(n)) = (base, env.scope.integer(exponent, self.diag)) else {
-                    return Value::Error;
-                };
-                return match i32::try_from(n) {
-                    Ok(n) if (-MAX_POWER..=MAX_POWER).contains(&n) => {
-                        Value::Scalar(self.graph.pow(base, n))
-                    }
-                    _ => self.error(
-                        exponent.loc,
-                        format!(
-                            "`powi` takes exponents from -{MAX_POWER} to {MAX_POWER}; use `powf`"
-                        ),
-                    ),
-                };
-            }
+            "powi" => return self.powi(name, args, env),
             "recip" => {
                 let [u] = args else {
                     return self.arity(name, 1, args.len());
@@ -118,6 +82,42 @@ impl<'m> Lowering<'m> {
             [Some(u), Some(w)] => Value::Scalar(self.graph.call2(func, u, w)),
             [Some(u)] => Value::Scalar(self.graph.call1(func, u)),
             _ => Value::Error,
+        }
+    }
+
+    /// A power with a whole exponent.
+    fn powi(&mut self, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
+        let [base, exponent] = args else {
+            return self.arity(name, 2, args.len());
+        };
+        let base = self.number(base, env);
+        if let ExprKind::Float(number) = exponent.kind {
+            let message =
+                format!("`powi` takes a whole exponent, such as `2`; write `powf({number:?})`");
+            return self.error(exponent.loc, message);
+        }
+        if let ExprKind::Name(given) = &exponent.kind
+            && env
+                .scope
+                .integer(exponent, &Diagnostics::default())
+                .is_none()
+        {
+            let message = format!(
+                "`{given}` is not an integer constant, which `powi` takes; others go with `powf`"
+            );
+            return self.error(exponent.loc, message);
+        }
+        let (Some(base), Some(n)) = (base, env.scope.integer(exponent, self.diag)) else {
+            return Value::Error;
+        };
+        match i32::try_from(n) {
+            Ok(n) if (-MAX_POWER..=MAX_POWER).contains(&n) => {
+                Value::Scalar(self.graph.pow(base, n))
+            }
+            _ => self.error(
+                exponent.loc,
+                format!("`powi` takes exponents from -{MAX_POWER} to {MAX_POWER}; use `powf`"),
+            ),
         }
     }
 

@@ -200,30 +200,36 @@ impl<'m> Lowering<'m> {
                 let family = &model.coords[*family?];
                 Some((&family.members[..], &family.shape[..]))
             }
-            None if body.is_some_and(|names| names.contains(&text.as_str())) => {
-                let message = format!(
-                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint{}; what acts on it goes under `forces` or `nonideal`",
-                    self.carrying(&name)
-                );
-                self.diag.error(field.span(), message);
-                None
-            }
             None => {
-                let names = body.into_iter().flatten().copied();
-                let names = names.chain(fields.into_iter().flat_map(|f| f.keys().copied()));
-                let remedy = match body {
-                    Some(_) if FIELDS.contains(&text.as_str()) => format!(
-                        "what acts on it is written `force({name}.at(p), F)` or `torque({name}, M)`, under `forces` or `nonideal`"
-                    ),
-                    Some(names) => format!("they are `{}`", names.join("`, `")),
-                    None => self.its_coordinates(&name),
-                };
-                let end = suggest(&text, names, &remedy);
-                let message = format!("{what} `{name}` has no coordinate `{text}`{end}");
+                let message = self.no_coordinate(&name, field, body);
                 self.diag.error(field.span(), message);
                 None
             }
         }
+    }
+
+    /// Why joints called `name`, or bodies, which may have some coordinates, have none that is called `field`.
+    fn no_coordinate(&self, name: &str, field: &Ident, body: Option<&[&'static str]>) -> String {
+        let text = field.to_string();
+        if body.is_some_and(|names| names.contains(&text.as_str())) {
+            return format!(
+                "`{name}` hangs on a joint of the tree: its coordinates are those of the joint{}; what acts on it goes under `forces` or `nonideal`",
+                self.carrying(name)
+            );
+        }
+        let names = body.into_iter().flatten().copied();
+        let fields = self.model.fields.get(name).into_iter();
+        let names = names.chain(fields.flat_map(|fields| fields.keys().copied()));
+        let remedy = match body {
+            Some(_) if FIELDS.contains(&text.as_str()) => format!(
+                "what acts on it is written `force({name}.at(p), F)` or `torque({name}, M)`, under `forces` or `nonideal`"
+            ),
+            Some(names) => format!("they are `{}`", names.join("`, `")),
+            None => self.its_coordinates(name),
+        };
+        let end = suggest(&text, names, &remedy);
+        let what = if body.is_some() { "body" } else { "joint" };
+        format!("{what} `{name}` has no coordinate `{text}`{end}")
     }
 
     /// The coordinates of the joint that the bodies called `name` hang on, as written, if all hang on joints of one name.

@@ -206,36 +206,14 @@ impl<'m> Lowering<'m> {
 
         let of_bodies = self.of_bodies(decl, &top);
         let mut mass = self.mass(decl, &top);
-        // Parts may have either.
-        if let (true, Some(kinetic)) = (declared("mass"), decl.sections.get("kinetic"))
-            && self.model.part_families.is_empty()
-        {
-            self.diag.error(
-                kinetic.span(),
-                "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
-            );
-        }
         let kinetic = self.kinetic(decl, &top, &of_bodies, &mut mass);
-        let acting = self.acting(decl, &top);
-        let mut terms = of_bodies.potential;
-        terms.extend(&acting.potential);
-        terms.extend(self.terms_of(&decl.potential, &top, Place::Potential));
-        let potential =
-            (declared("potential") || !terms.is_empty()).then(|| self.graph.sum(&terms));
-        let mut force = BTreeMap::new();
-        top.unroll(&decl.force, self.diag, &mut |entry, scope| {
-            self.entry(entry, &Env::new(scope, Place::Force), &mut force);
-        });
-        for (i, values) in acting.force {
-            force.entry(i).or_default().extend(values);
-        }
-        let force = self.totals(force);
+        let (potential, force) = self.forces(decl, &top, of_bodies.potential);
         // Behind the constraints if it may use their reactions.
         let late = LOADS.iter().any(|name| uses(decl, name));
-        let forces = |lowering: &mut Self| {
+        let nonideal = |lowering: &mut Self| {
             declared("nonideal").then(|| lowering.applied(&decl.nonideal, &top))
         };
-        let early = (!late).then(|| forces(self));
+        let early = (!late).then(|| nonideal(self));
         self.constraints = of_bodies.units;
         let mut names = Names::default();
         for (blocks, kind) in [
@@ -247,7 +225,7 @@ impl<'m> Lowering<'m> {
             });
         }
         self.constrained = true;
-        let nonideal = early.unwrap_or_else(|| forces(self));
+        let nonideal = early.unwrap_or_else(|| nonideal(self));
         let mut names = Names::default();
         let outputs = self.reported(&decl.outputs, NoValue::Output, &top, &mut names);
         let integrals = self.reported(&decl.integrals, NoValue::Integral, &top, &mut names);
@@ -329,13 +307,20 @@ impl<'m> Lowering<'m> {
         of_bodies: &OfBodies,
         mass: &mut BTreeMap<(usize, usize), (Id, Loc)>,
     ) -> Option<(Id, Loc)> {
+        let keyword = decl.sections.get("kinetic");
+        // Parts may have either.
+        if let (true, Some(keyword)) = (decl.sections.contains_key("mass"), keyword)
+            && self.model.part_families.is_empty()
+        {
+            let message = "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`";
+            self.diag.error(keyword.span(), message);
+        }
         for (i, own, loc) in &of_bodies.diagonal {
             let entry = mass.get(&(*i, *i)).map(|(m, _)| *m);
             let values: Vec<Id> = entry.into_iter().chain([*own]).collect();
             let total = self.total_of(&values);
             mass.entry((*i, *i)).or_insert((total, *loc)).0 = total;
         }
-        let keyword = decl.sections.get("kinetic");
         let loc = keyword.map(|keyword| keyword.span().into());
         let loc = loc.or(of_bodies.changing)?;
         let mut terms = of_bodies.turning.clone();
@@ -351,6 +336,28 @@ impl<'m> Lowering<'m> {
         }
         terms.extend(self.terms_of(&decl.kinetic, top, Place::Kinetic));
         Some((self.graph.sum(&terms), loc))
+    }
+
+    /// V, of which bodies have some `terms`, if there is any, and Q by coordinate.
+    fn forces(
+        &mut self,
+        decl: &Declaration,
+        top: &Scope<'m>,
+        mut terms: Vec<(f64, Id)>,
+    ) -> (Option<Id>, BTreeMap<usize, Id>) {
+        let acting = self.acting(decl, top);
+        terms.extend(&acting.potential);
+        terms.extend(self.terms_of(&decl.potential, top, Place::Potential));
+        let declared = decl.sections.contains_key("potential");
+        let potential = (declared || !terms.is_empty()).then(|| self.graph.sum(&terms));
+        let mut force = BTreeMap::new();
+        top.unroll(&decl.force, self.diag, &mut |entry, scope| {
+            self.entry(entry, &Env::new(scope, Place::Force), &mut force);
+        });
+        for (i, values) in acting.force {
+            force.entry(i).or_default().extend(values);
+        }
+        (potential, self.totals(force))
     }
 
     /// What `forces` and `dissipation` act with.

@@ -218,6 +218,78 @@ pub(super) fn joints() -> String {
     names.into_iter().collect::<Vec<_>>().join(", ")
 }
 
+/// The dimension of where the part called `name` is used, as its bodies tell it, or else points of the ground; without either it is where
+/// the part lives.
+fn dimension(name: &Ident, values: &[Value]) -> usize {
+    let of_bodies = values.iter().find_map(|value| match value {
+        Value::Body(body) => body.dimension(),
+        Value::Point(point) => point.body.dimension(),
+        _ => None,
+    });
+    let of_ground = values.iter().find_map(|value| match value {
+        Value::Point(point) => Some(point.place.entries().len()),
+        _ => None,
+    });
+    let mut named = PARTS.iter().filter(|part| name == part.name);
+    let spatial = named.all(|part| part.home == Home::Space);
+    let known = of_bodies.or(of_ground);
+    known.unwrap_or(if spatial { 3 } else { 2 })
+}
+
+/// The part called `name` that takes so many arguments in a space of this dimension; or why there is none.
+fn chosen(name: &Ident, dimension: usize, count: usize) -> Result<&'static Part, String> {
+    let (home, here, there) = match dimension {
+        3 => (Home::Space, "in space", "planar"),
+        _ => (Home::Plane, "in the plane", "spatial"),
+    };
+    let (at_home, elsewhere): (Vec<&Part>, Vec<&Part>) = PARTS
+        .iter()
+        .filter(|part| name == part.name)
+        .partition(|part| part.home == Home::Both || part.home == home);
+    let fits = |part: &&&Part| {
+        let (least, most) = part.arity();
+        (least..=most).contains(&count)
+    };
+    if let Some(part) = at_home.iter().find(fits) {
+        return Ok(part);
+    }
+    let usages = |parts: &[&Part]| {
+        let usages: Vec<String> = parts.iter().map(|part| part.usage()).collect();
+        usages.join(" or ")
+    };
+    if !at_home.is_empty() {
+        let (usages, found) = (usages(&at_home), arguments(count));
+        return Err(format!("it is written {usages}, found {found}"));
+    }
+    let other = COUNTERPARTS.iter().find(|(one, _)| name == one);
+    let other = other.map_or(String::new(), |(_, other)| format!(", where it is {other}"));
+    let usages = usages(&elsewhere);
+    Err(format!(
+        "`{name}` joins {there} bodies: {usages}; these are {here}{other}"
+    ))
+}
+
+/// Whether a value is what is taken in a space of this dimension, and what that is.
+fn taken(takes: Takes, value: &Value, dimension: usize) -> (bool, String) {
+    match takes {
+        Takes::Point => (
+            matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
+            "a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`".to_owned(),
+        ),
+        Takes::Body => (
+            matches!(value, Value::Body(_) | Value::Point(_)),
+            "a body".to_owned(),
+        ),
+        Takes::Direction | Takes::Force => (value.shape() == [dimension], describe(&[dimension])),
+        Takes::Moment if dimension != 2 => (value.shape() == [3], describe(&[3])),
+        Takes::Number | Takes::Length | Takes::Moment => (
+            value.shape().is_empty() && !matches!(value, Value::Body(_)),
+            describe(&[]),
+        ),
+        Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
+    }
+}
+
 impl<'m> Lowering<'m> {
     /// The rows of a joint.
     pub(super) fn joint(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
@@ -418,60 +490,10 @@ impl<'m> Lowering<'m> {
         if values.iter().any(Value::is_error) {
             return None;
         }
-        let named = || PARTS.iter().filter(|part| name == part.name);
-        // Where it is used is told by its bodies, or else by points of the ground.
-        let frames = || {
-            values.iter().filter_map(|value| match value {
-                Value::Body(body) => body.dimension(),
-                Value::Point(point) => point.body.dimension(),
-                _ => None,
-            })
-        };
-        let of_ground = values.iter().find_map(|value| match value {
-            Value::Point(point) => Some(point.place.entries().len()),
-            _ => None,
-        });
-        // Without either it is where the part lives.
-        let spatial = named().all(|part| part.home == Home::Space);
-        let dimension = frames().next().or(of_ground);
-        let dimension = dimension.or(spatial.then_some(3));
-        let home = match dimension {
-            Some(3) => Home::Space,
-            _ => Home::Plane,
-        };
-        let at_home = || named().filter(|part| part.home == Home::Both || part.home == home);
-        let fits = |part: &&Part| {
-            let (least, most) = part.arity();
-            (least..=most).contains(&args.len())
-        };
-        let Some(part) = at_home().find(fits) else {
-            let usages = |parts: &mut dyn Iterator<Item = &'static Part>| {
-                parts.map(Part::usage).collect::<Vec<_>>().join(" or ")
-            };
-            let message = match at_home().next() {
-                Some(_) => format!(
-                    "it is written {}, found {}",
-                    usages(&mut at_home()),
-                    arguments(args.len())
-                ),
-                None => {
-                    let (here, there) = match home {
-                        Home::Space => ("in space", "planar"),
-                        _ => ("in the plane", "spatial"),
-                    };
-                    let other = COUNTERPARTS.iter().find(|(one, _)| name == one);
-                    let other =
-                        other.map_or(String::new(), |(_, other)| format!(", where it is {other}"));
-                    format!(
-                        "`{name}` joins {there} bodies: {}; these are {here}{other}",
-                        usages(&mut named())
-                    )
-                }
-            };
-            self.error(name.span(), message);
-            return None;
-        };
-        let dimension = dimension.unwrap_or(2);
+        let dimension = dimension(name, values);
+        let part = chosen(name, dimension, args.len());
+        let part = part.map_err(|message| self.diag.error(name.span(), message));
+        let part = part.ok()?;
         let mut inner = Env::new(&Scope::new(self.model), Place::Let);
         let mut sound = true;
         for (k, arg) in part.args.iter().enumerate() {
@@ -509,25 +531,7 @@ impl<'m> Lowering<'m> {
             unit,
             ..
         } = *arg;
-        let (fits, expected) = match takes {
-            Takes::Point => (
-                matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
-                "a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`".to_owned(),
-            ),
-            Takes::Body => (
-                matches!(value, Value::Body(_) | Value::Point(_)),
-                "a body".to_owned(),
-            ),
-            Takes::Direction | Takes::Force => {
-                (value.shape() == [dimension], describe(&[dimension]))
-            }
-            Takes::Moment if !flat => (value.shape() == [3], describe(&[3])),
-            Takes::Number | Takes::Length | Takes::Moment => (
-                value.shape().is_empty() && !matches!(value, Value::Body(_)),
-                describe(&[]),
-            ),
-            Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
-        };
+        let (fits, expected) = taken(takes, value, dimension);
         if !fits {
             let found = match value {
                 Value::Body(body) => format!("the body `{body}`"),

@@ -182,18 +182,8 @@ impl<'m> Lowering<'m> {
             if let (true, Some(x), Some(y)) = (divides, whole, by)
                 && x.checked_rem(y).is_some_and(|r| r != 0)
             {
-                let division = "is an integer division, which Rust rounds to";
-                let rounded = x / y;
-                let message = match (&first.kind, &operand.kind) {
-                    (ExprKind::Int(_), ExprKind::Int(_)) => {
-                        format!("`{x} / {y}` {division} {rounded}; write `{x}.0 / {y}.0`")
-                    }
-                    _ => format!(
-                        "this, of {x} by {y}, {division} {rounded}; it may stand in an index, and in a formula needs a number, as `2.0`"
-                    ),
-                };
-                self.error(loc, message);
-                return Value::Error;
+                let plain = [first, operand].map(|e| matches!(e.kind, ExprKind::Int(_)));
+                return self.integer_division([x, y], plain == [true; 2], loc);
             }
             whole = match (whole, by) {
                 (Some(x), Some(y)) if divides => x.checked_div(y),
@@ -222,19 +212,7 @@ impl<'m> Lowering<'m> {
                     array = Some(product);
                 }
             }
-            // Numbers are multiplied as Rust would, one by one.
-            if let [(a, 1), b] = factors[..]
-                && let (Some(x), Some(y)) = (self.graph.as_const(a), self.graph.as_const(b.0))
-            {
-                let folded = self.graph.product(&factors);
-                let vanished = x != 0.0 && y != 0.0 && self.graph.is_zero(folded);
-                if vanished {
-                    self.error(loc, "this constant is too small for an `f64`");
-                    failed = true;
-                }
-                failed |= matches!(self.finite(Value::Scalar(folded), loc, env), Value::Error);
-                factors = vec![(folded, 1)];
-            }
+            failed |= !self.fold_numbers(&mut factors, loc, env);
         }
         if failed {
             return Value::Error;
@@ -248,6 +226,36 @@ impl<'m> Lowering<'m> {
             factors.pop();
             product
         })
+    }
+
+    /// Reports that x/y, which may be `plain` as it stands, is rounded.
+    fn integer_division(&mut self, [x, y]: [i64; 2], plain: bool, loc: Loc) -> Value {
+        let division = "is an integer division, which Rust rounds to";
+        let rounded = x / y;
+        let message = match plain {
+            true => format!("`{x} / {y}` {division} {rounded}; write `{x}.0 / {y}.0`"),
+            false => format!(
+                "this, of {x} by {y}, {division} {rounded}; it may stand in an index, and in a formula needs a number, as `2.0`"
+            ),
+        };
+        self.error(loc, message)
+    }
+
+    /// Makes one number of two, as Rust would multiply them, one by one; whether it is one.
+    fn fold_numbers(&mut self, factors: &mut Vec<(Id, i32)>, loc: Loc, env: &Env<'m>) -> bool {
+        let [(a, 1), (b, _)] = factors[..] else {
+            return true;
+        };
+        let (Some(x), Some(y)) = (self.graph.as_const(a), self.graph.as_const(b)) else {
+            return true;
+        };
+        let folded = self.graph.product(factors);
+        *factors = vec![(folded, 1)];
+        let vanished = x != 0.0 && y != 0.0 && self.graph.is_zero(folded);
+        if vanished {
+            self.error(loc, "this constant is too small for an `f64`");
+        }
+        !self.finite(Value::Scalar(folded), loc, env).is_error() && !vanished
     }
 
     /// The product of two arrays, if there is one.
