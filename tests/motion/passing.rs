@@ -456,6 +456,58 @@ fn rattle_keeps_its_order_over_singular_positions() {
     assert!(coarse < 1e-5 && fine < coarse / 8.0, "{coarse:e}, {fine:e}");
 }
 
+ukcore::multibody! {
+    /// A parallelogram in angles, weights on its cranks: along the line of the axles the row of its closing along that line vanishes.
+    Linkage {
+        params { g = 0.0 }
+        coords { a, b, c }
+        mass { a: 1, b: 1, c: 1.7 }
+        potential { g * sin(a) }
+        holonomic { l: [cos(a) + 2 * cos(b), sin(a) + 2 * sin(b)] = [2 + cos(c), sin(c)] }
+    }
+}
+
+ukcore::multibody! {
+    /// One of its cranks.
+    Turning {
+        params { g = 0.0 }
+        coords { a }
+        mass { a: 2.7 }
+        potential { g * sin(a) }
+    }
+}
+
+/// A step so long that it comes to nothing where constraints are not small yet before they vanish.
+#[test]
+fn rattle_goes_over_singular_positions_with_steps_of_any_size() {
+    for (g, rate, size) in (1..=12).flat_map(|k| {
+        let size = 0.025 * f64::from(k);
+        [(0.0, 1.0), (0.0, 1.854), (0.7, 2.618)].map(|(g, rate)| (g, rate, size))
+    }) {
+        let (step, end) = (size / rate, 16.0 / rate);
+        let start = State {
+            t: 0.0,
+            q: vec![0.3, 0.0, 0.3],
+            v: vec![rate, 0.0, rate],
+        };
+        let run = Simulation::new(Linkage { g }).method(Method::Rattle { step });
+        let run = run.start(start).until(end);
+        let run = run.unwrap_or_else(|failure| panic!("{g} {rate} {size}: {failure}"));
+        let alone = State {
+            t: 0.0,
+            q: vec![0.3],
+            v: vec![rate],
+        };
+        let alone = Simulation::new(Turning { g }).start(alone).tolerance(1e-12);
+        let alone = alone.until(end).expect("a motion");
+        let [last, there] = [&run, &alone].map(|run| run.last().expect("an end"));
+        let off = (last.q[0] - there.q[0])
+            .abs()
+            .max((last.q[2] - last.q[0]).abs());
+        assert!(off < 1e-8 + 1e-4 * g * size, "{g} {rate} {size}: {off:e}");
+    }
+}
+
 #[test]
 fn rattle_goes_across_switches_after_a_singular_position() {
     let Case { start, off, .. } = crank(1.0, 0.0, 4.0);

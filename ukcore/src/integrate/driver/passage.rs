@@ -13,6 +13,7 @@ use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
 use crate::integrate::{Method, Outcome, Purpose, Singular, Tolerance};
+use crate::scan::axpy;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -428,6 +429,14 @@ impl Driver<'_> {
         let found = found.filter(|found| !undone || gap.is_none() || found.gap == 0.0);
         let end = Sample::of(trial.end.t, self.scheme.end());
         let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
+        let found = found.or_else(|| {
+            // Nor does it get where the motion would be without forces, which may be beyond the position.
+            let mut beyond = self.scheme.start().to_vec();
+            let (q, v) = beyond.split_at_mut(here.q.len());
+            axpy(trial.h, v, q);
+            let missed = !made && gap.is_none();
+            missed.then(|| problem.vanishing(here, Some(Sample::of(trial.end.t, &beyond))))?
+        });
         let known = found.as_ref().or(self.passage.ahead.as_ref());
         let over = known.filter(|_| self.passage.passing && made);
         let beside = over.and_then(|over| problem.met_beside(here, end, over.t));
