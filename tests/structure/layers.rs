@@ -149,7 +149,7 @@ fn ukcore() {
             "metric",
             "dense",
             "saddle",
-            "diagnose",
+            "naming",
             "solver",
             "lanes",
             "manifold",

@@ -11,10 +11,10 @@
 //! is nearer than the first one found, as near a good sketch, the search ends there; else dozens more begin all around the guess, and more
 //! where the signs of det ∂φ/∂q at the solutions tell that one is missing.
 
-use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Mechanism, Prepared};
+use crate::naming;
 use crate::scan::largest;
 use crate::spec::{GuessKind, Spec, rate_of};
 
@@ -80,8 +80,8 @@ impl State {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NonFinite`] (also for parameters of `mech`).
     pub fn check(&self, mech: &Prepared) -> Result<(), Error> {
-        diagnose::check_lengths(mech, &self.q, &self.v)?;
-        diagnose::bad_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
+        naming::check_lengths(mech, &self.q, &self.v)?;
+        naming::bad_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
 
@@ -123,7 +123,7 @@ impl Residuals {
 /// [`Error::WrongLength`].
 pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residuals, Error> {
     let mech: Prepared = mechanism.into();
-    diagnose::check_lengths(&mech, &state.q, &state.v)?;
+    naming::check_lengths(&mech, &state.q, &state.v)?;
     Ok(Residuals::at(&mech, state.t, &state.q, &state.v))
 }
 
@@ -227,7 +227,7 @@ impl Held {
 /// What [`assemble`] reports, but for names.
 pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<State, Error> {
     guess.check(mech)?;
-    diagnose::inertias(mech)?;
+    naming::inertias(mech)?;
     search(mech, guess, &held).map_err(|error| blame(mech, guess, &held, error))
 }
 

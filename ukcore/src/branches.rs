@@ -7,11 +7,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search, State, assembled, held, scatter, weight};
-use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, null_space_holding, quaternions, units};
+use crate::naming;
 use crate::random::Random;
 use crate::spectrum::singular;
 use crate::start::{Said, StartOptions};
@@ -112,7 +112,7 @@ fn looked(mech: Prepared, guess: &State, hold: &[&str], look: Look) -> Result<As
 /// The ways near a guess, with coordinates held by their positions.
 fn near(mech: &Prepared, guess: &State, held: &Held, look: Look) -> Result<Assembled, Error> {
     guess.check(mech)?;
-    diagnose::inertias(mech)?;
+    naming::inertias(mech)?;
     let units = units(mech, guess);
     let mut ways = Ways {
         mech,

@@ -6,12 +6,12 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::State;
-use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::modes::{
     INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
 };
+use crate::naming::PARTICIPATION;
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;

@@ -9,12 +9,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search as Assembly, State, assembled, held};
-use crate::diagnose::undirected;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
+use crate::naming::undirected;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
 

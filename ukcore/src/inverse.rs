@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{State, held};
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, measure, null_space, units};
+use crate::naming;
 use crate::scan::largest;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum::singular;
@@ -136,7 +136,7 @@ pub fn inverse_forces(
     } = posture;
     let driven = held(spec, coordinates)?;
     state.check(&mech)?;
-    diagnose::check_length("acceleration", acceleration.len(), n)?;
+    naming::check_length("acceleration", acceleration.len(), n)?;
     if acceleration.iter().any(|a| !a.is_finite()) {
         return Err(Error::non_finite("acceleration"));
     }

@@ -31,7 +31,6 @@
 pub mod assemble;
 mod branches;
 mod dense;
-mod diagnose;
 mod diagnosis;
 pub mod equations;
 mod equilibrium;
@@ -53,6 +52,7 @@ pub mod mechanism;
 mod metric;
 pub mod model;
 mod modes;
+mod naming;
 mod nearby;
 mod noise;
 pub mod numbers;

@@ -13,9 +13,9 @@
 //! directions along the manifold.
 
 use crate::assemble::State;
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
+use crate::naming;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::all_finite;
 use crate::solver::{Accepted, Baumgarte, Solver, SolverOptions};
@@ -48,7 +48,7 @@ impl Linearisation {
         let solver = Solver::new(&mechanism, SolverOptions::default());
         let found = Linearisation::of(solver, state);
         let State { t, q, v } = state;
-        found.map_err(|error| diagnose::undirected(&mechanism, (*t, q, v), error))
+        found.map_err(|error| naming::undirected(&mechanism, (*t, q, v), error))
     }
 
     fn of(mut solver: Solver, state: &State) -> Result<Self, Error> {

@@ -10,9 +10,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
+use crate::naming;
 use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
@@ -129,7 +129,7 @@ impl Projector {
     /// [`Error::OffConstraint`] with the constraints that cannot be met near q; [`Error::NonFinite`], [`Error::IndefiniteMass`],
     /// [`Error::WrongLength`].
     pub fn position(&mut self, t: f64, q: &mut [f64], v: &[f64]) -> Result<Correction, Error> {
-        diagnose::check_lengths(&self.mechanism, q, v)?;
+        naming::check_lengths(&self.mechanism, q, v)?;
         self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.project(&at, q)
@@ -154,7 +154,7 @@ impl Projector {
     /// # Errors
     /// What [`Projector::position`] reports.
     pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
-        diagnose::check_lengths(&self.mechanism, q, v)?;
+        naming::check_lengths(&self.mechanism, q, v)?;
         self.measure(t, q, v);
         let at = At::new(&self.mechanism, Level::Velocity, t, q);
         self.manifold.project(&at, v)
@@ -374,7 +374,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let still = at.mech.spec().structure.scleronomic;
         // Towards a singular position rounding may lead into another branch.
-        if at.rows() == 0 || still && !self.keep(at, x).is_ok_and(|clear| clear) {
+        if at.rows() == 0 || still && !self.each_is_clear(at, x).is_ok_and(|clear| clear) {
             return;
         }
         let newton = &mut self.newton;
@@ -430,7 +430,7 @@ impl Manifold {
         let scale = |c: usize| self.newton.acceptance.scale(c).recip();
         Error::OffConstraint {
             level: at.level.name(),
-            constraints: diagnose::offending(at.mech.spec(), &violations, scale),
+            constraints: naming::offending(at.mech.spec(), &violations, scale),
         }
     }
 

@@ -19,10 +19,10 @@
 //! and b.
 
 use crate::dense::{Dense, Route};
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
+use crate::naming;
 use crate::noise::Noise;
 use crate::saddle::Saddle;
 use crate::scan::{all_finite, axpy};
@@ -167,9 +167,9 @@ impl Solver {
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        diagnose::check_length("out", out.len(), self.n)?;
-        diagnose::check_lengths(&self.mechanism, q, v)?;
-        diagnose::subnormal(&self.mechanism)?;
+        naming::check_length("out", out.len(), self.n)?;
+        naming::check_lengths(&self.mechanism, q, v)?;
+        naming::subnormal(&self.mechanism)?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
             self.acceleration_in_run((t, q, v), out)
@@ -275,7 +275,7 @@ impl Solver {
     /// # Errors
     /// What [`Solver::acceleration`] reports.
     pub fn solve(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Solution, Error> {
-        diagnose::inertias(&self.mechanism)?;
+        naming::inertias(&self.mechanism)?;
         let n = self.n;
         let mut ideal = vec![0.0; n];
         let (formula, tolerance) = self.decide((t, q, v))?;
@@ -403,8 +403,8 @@ impl Solver {
 
     /// Evaluates, factors, and decides the rank. Returns the formula, and the tolerance that decided.
     fn decide(&mut self, (t, q, v): Given<'_>) -> Result<(Formula, f64), Error> {
-        diagnose::check_lengths(&self.mechanism, q, v)?;
-        diagnose::subnormal(&self.mechanism)?;
+        naming::check_lengths(&self.mechanism, q, v)?;
+        naming::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
         if self.ideal {
             self.here.nonideal.fill(0.0);
@@ -421,8 +421,8 @@ impl Solver {
         let terms = &self.here;
         let given = t.is_finite() && [q, v, &self.rhs].into_iter().all(all_finite);
         if !(given && terms.all().into_iter().all(all_finite)) {
-            let terms = || diagnose::non_finite_terms(self.mechanism.spec(), terms, &self.rhs);
-            return Err(diagnose::bad_input(&self.mechanism, t, q, v).unwrap_or_else(terms));
+            let terms = || naming::non_finite_terms(self.mechanism.spec(), terms, &self.rhs);
+            return Err(naming::bad_input(&self.mechanism, t, q, v).unwrap_or_else(terms));
         }
         let measure = &mut self.dense.measure;
         measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
@@ -430,7 +430,7 @@ impl Solver {
         let tolerance = self.decide_rank((t, q, v))?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
             return Err(Error::Underdetermined {
-                coordinates: diagnose::participating(
+                coordinates: naming::participating(
                     self.mechanism.spec(),
                     &self.dense.undetermined(),
                 ),

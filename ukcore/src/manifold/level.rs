@@ -1,8 +1,8 @@
 //! The constraints as equations for q, or for q̇.
 
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
+use crate::naming;
 use crate::scalar::Scalar;
 
 /// Position (φ) or velocity (φ̇ and ψ).
@@ -100,7 +100,7 @@ impl At<'_, f64> {
     /// Why residuals at `x` are not finite.
     pub(super) fn non_finite(&self, x: &[f64], residual: &[f64]) -> Error {
         let (q, v) = self.level.state(x, self.other);
-        let what = diagnose::non_finite_rows(self.mech.spec(), residual);
-        diagnose::bad_input(self.mech, self.t, q, v).unwrap_or(Error::NonFinite { what })
+        let what = naming::non_finite_rows(self.mech.spec(), residual);
+        naming::bad_input(self.mech, self.t, q, v).unwrap_or(Error::NonFinite { what })
     }
 }

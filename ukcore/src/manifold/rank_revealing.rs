@@ -4,9 +4,9 @@ use super::Manifold;
 use super::level::{At, Level};
 use super::newton::Newton;
 use crate::dense::{Dense, Rows};
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
+use crate::naming;
 use crate::scan::{all_finite, axpy, largest};
 use crate::solver::{CLEAR, RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 
@@ -84,7 +84,7 @@ impl Factors {
             (0..n).for_each(|i| self.mass[i * n + j] *= LIGHT);
         }
         if !all_finite(&self.mass) || !all_finite(jacobian) {
-            let what = diagnose::non_finite_matrices(spec, &self.mass, jacobian);
+            let what = naming::non_finite_matrices(spec, &self.mass, jacobian);
             return Err(Error::NonFinite { what });
         }
         self.hold(jacobian, &newton.acceptance.held);
@@ -174,7 +174,7 @@ impl Factors {
 
 impl Manifold {
     /// Whether each constraint is clear of the others at `x`, once what they imply is taken off.
-    pub(super) fn keep(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
+    pub(super) fn each_is_clear(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
         if at.rows() == 0 {
             return Ok(true);
         }

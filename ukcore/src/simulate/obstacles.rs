@@ -5,7 +5,6 @@ use super::standstill;
 use super::vanishing::{BEFORE, Loss, Vanishing, between_states};
 use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
-use crate::diagnose;
 use crate::diagnosis::{STANDS, dead_centre, lost_reactions};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
@@ -13,6 +12,7 @@ use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::{Projector, STALLED};
 use crate::measure::Measure;
 use crate::mechanism::{Branch, Prepared};
+use crate::naming;
 use crate::noise::Noise;
 use crate::scan::{axpy, largest};
 use crate::solver::{Accepted, RANK_CEILING, Solver, SolverOptions};
@@ -134,7 +134,7 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     if jumps.iter().any(|r| *r != 0.0) {
         return Some(Error::Jump {
             level: if position { "position" } else { "velocity" },
-            constraints: diagnose::offending(spec, &jumps, |_| 1.0),
+            constraints: naming::offending(spec, &jumps, |_| 1.0),
         });
     }
     let (q, v) = (&near_q[..], &near_v[..]);
@@ -178,7 +178,7 @@ fn too_fast(
 pub(super) fn stuck(mechanism: &Prepared, at: Sample<'_>) -> Option<Error> {
     let spec = mechanism.spec();
     let residual = Residuals::at(mechanism, at.t, at.q, at.v).position;
-    let ended = diagnose::offending(spec, &residual, |_| 1.0);
+    let ended = naming::offending(spec, &residual, |_| 1.0);
     let constraints: Vec<String> = ended.into_iter().map(|(name, _)| name).collect();
     (!constraints.is_empty()).then_some(Error::Singular { constraints })
 }
@@ -450,7 +450,7 @@ fn kink(mechanism: &Prepared, at: &State, step: f64) -> Option<Error> {
         let change: Vec<f64> = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).collect();
         (largest(&change) > BEGUN * speed).then(|| Error::Jump {
             level: "velocity",
-            constraints: diagnose::offending(spec, &change, |_| 1.0),
+            constraints: naming::offending(spec, &change, |_| 1.0),
         })
     })
 }
@@ -497,7 +497,7 @@ pub(super) fn explain(
         }
     }
     let State { t, q, v } = &trouble.state;
-    trouble.error = diagnose::undirected(mechanism, (*t, q, v), trouble.error);
+    trouble.error = naming::undirected(mechanism, (*t, q, v), trouble.error);
     if let Error::NonFinite { what } = &mut trouble.error
         && mechanism.spec().structure.loaded
         && let Some(last) = what.last_mut()

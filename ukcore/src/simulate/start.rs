@@ -6,12 +6,12 @@ use super::record::{Recorder, Sink};
 use super::{START_BOUND, Simulation, obstacles};
 use crate::assemble::{Residuals, State};
 use crate::dense::Rows;
-use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, STALLED, Stabilisation};
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
+use crate::naming;
 use crate::solver::Solver;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
@@ -239,6 +239,6 @@ fn within(share: f64, [before, after]: [&[f64]; 2], absolute: &[f64], measure: &
 }
 
 fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
-    let constraints = diagnose::offending(spec, residual, |_| 1.0);
+    let constraints = naming::offending(spec, residual, |_| 1.0);
     Error::OffConstraint { level, constraints }
 }

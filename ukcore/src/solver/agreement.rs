@@ -2,9 +2,9 @@
 
 use super::{DRIFT_FACTOR, Given, RANK_CEILING, Solver};
 use crate::dense::Rows;
-use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Evaluated;
+use crate::naming;
 use crate::scan::{all_finite, or_one};
 
 /// The equations at the nearest state on the manifold.
@@ -77,7 +77,7 @@ impl Solver {
         let residual: Vec<f64> = residual.collect();
         Err(Error::Inconsistent {
             // A row of zeros has no scale: 0 = b.
-            constraints: diagnose::offending(spec, &residual, |c| or_one(self.dense.row_scale[c])),
+            constraints: naming::offending(spec, &residual, |c| or_one(self.dense.row_scale[c])),
         })
     }
 
