@@ -12,7 +12,7 @@ use crate::scalar::{Scalar, Sloped, Slopes};
 
 /// The part of what is usual below which rows tell that branches cross nearby, and rounding grows by the third power of the inverse.
 const NEAR: f64 = 1e-2;
-/// Then it is the mean of places on both sides, so far away, as a part of a radius of curvature,
+/// A value near such a place is the mean of those at places on both sides, so far away, as a part of a radius of curvature,
 const ASIDE: f64 = 3e-2;
 /// each pair with its share, which makes the error one of eighth order; its own distance is so many times that.
 const SHARES: [f64; 4] = [1.6, -0.8, 8.0 / 35.0, -1.0 / 35.0];
