@@ -142,8 +142,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The error of the motion with this change.
-    fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
+    /// The motion with this change.
+    fn changed(&self, change: Change, value: f64) -> Result<Motion, Error> {
         let mut mechanism = self.ready.mechanism.clone();
         let mut tolerance = TOLERANCE;
         let mut state = self.ready.state.clone();
@@ -163,10 +163,18 @@ impl<'a> Subject<'a> {
             Change::Tolerance => tolerance = value.max(SMALLEST_TOLERANCE),
         }
         let instant = |k| state.t + self.length * f64::from(k) / f64::from(INSTANTS);
-        let motion = Motion {
-            mechanism: &mechanism,
+        Ok(Motion {
             times: (1..=INSTANTS).map(instant).collect(),
-        };
+            mechanism,
+            start: state,
+            tolerance,
+        })
+    }
+
+    /// The error of the motion with this change.
+    fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
+        let motion = self.changed(change, value)?;
+        let (start, tolerance) = (&motion.start, motion.tolerance);
         let explicit = |formula, tolerance| Way {
             method: Method::Dop853,
             formula,
@@ -185,10 +193,10 @@ impl<'a> Subject<'a> {
         let finer = (0.01 * tolerance).max(SMALLEST_TOLERANCE);
         let (printed, auto) = (self.printed(), Formula::Auto);
         // The way itself, one that shares little with it, and what to take where that does not get through.
-        let (found, other, instead) = match motion.by(explicit(auto, tolerance), &state, effort) {
+        let (found, other, instead) = match motion.by(explicit(auto, tolerance), start, effort) {
             // What a user does who is told that steps are many: the method for stiff mechanisms.
             Err(Error::TooManySteps { .. }) => (
-                motion.by(implicit(auto, tolerance), &state, effort)?,
+                motion.by(implicit(auto, tolerance), start, effort)?,
                 implicit(printed, tolerance),
                 implicit(auto, finer),
             ),
@@ -201,28 +209,9 @@ impl<'a> Subject<'a> {
             }
         };
         let (other, instead) = (patient(other), patient(instead));
-        let expected = motion.by(other, &state, effort);
-        let expected = expected.or_else(|_| motion.by(instead, &state, effort))?;
-        let mut scale = scale(mechanism.spec(), &state, &expected);
-        // Tolerances are absolute, too: what gathers from them in a motion that hardly moves is no wrong result.
-        for size in &mut scale {
-            *size = size.max(GATHERED * TOLERANCE / BOUND);
-        }
-        let known = (&expected[..], &scale[..]);
-        let magnified = motion.magnified(instead, &state, known, effort)?;
-        let apart = largest(&found, &expected, &scale);
-        let mut error = apart / magnified.max(1.0);
-        // Errors that are made on the way may be magnified by more than those of the start.
-        let places = motion.times.iter().zip(&expected);
-        for (t, y) in places.take(motion.times.len() - 1) {
-            if error <= GATHERED * tolerance {
-                break;
-            }
-            let (q, v) = y.split_at(state.q.len());
-            let (t, q, v) = (*t, q.to_vec(), v.to_vec());
-            let magnified = motion.magnified(instead, &State { t, q, v }, known, effort);
-            error = error.min(apart / magnified.unwrap_or(1.0).max(1.0));
-        }
+        let expected = motion.by(other, start, effort);
+        let expected = expected.or_else(|_| motion.by(instead, start, effort))?;
+        let error = motion.error(&found, &expected, instead, effort)?;
         Ok(match change {
             Change::Tolerance => error / tolerance,
             _ => error,
@@ -238,20 +227,23 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The motion of a mechanism through instants.
-struct Motion<'a> {
-    mechanism: &'a Prepared,
+/// The motion of a mechanism from a state through instants.
+struct Motion {
+    mechanism: Prepared,
+    start: State,
     times: Vec<f64>,
+    /// How exactly it is asked for.
+    tolerance: f64,
 }
 
-impl Motion<'_> {
+impl Motion {
     /// (q, q̇) at the instants after `start` of the motion from there.
     fn by(&self, way: Way, start: &State, effort: &mut Effort) -> Result<Vec<Vec<f64>>, Error> {
         let forward = self.times[self.times.len() - 1] >= start.t;
         let later = |t: &&f64| **t != start.t && (**t > start.t) == forward;
         let times: Vec<f64> = self.times.iter().filter(later).copied().collect();
         let until = times.last().copied().unwrap_or(start.t);
-        let simulation = Simulation::new(self.mechanism)
+        let simulation = Simulation::new(&self.mechanism)
             .start(start.clone())
             .method(way.method)
             .formula(way.formula)
@@ -259,6 +251,37 @@ impl Motion<'_> {
             .max_steps(way.steps)
             .at(times);
         Ok(states(&effort.run(simulation, until)?))
+    }
+
+    /// The difference of states `found` from those `expected`, over what the motion makes of a small change.
+    fn error(
+        &self,
+        found: &[Vec<f64>],
+        expected: &[Vec<f64>],
+        way: Way,
+        effort: &mut Effort,
+    ) -> Result<f64, Error> {
+        let mut scale = scale(self.mechanism.spec(), &self.start, expected);
+        // Tolerances are absolute, too: what gathers from them in a motion that hardly moves is no wrong result.
+        for size in &mut scale {
+            *size = size.max(GATHERED * TOLERANCE / BOUND);
+        }
+        let known = (expected, &scale[..]);
+        let magnified = self.magnified(way, &self.start, known, effort)?;
+        let apart = largest(found, expected, &scale);
+        let mut error = apart / magnified.max(1.0);
+        // Errors that are made on the way may be magnified by more than those of the start.
+        let places = self.times.iter().zip(expected);
+        for (t, y) in places.take(self.times.len() - 1) {
+            if error <= GATHERED * self.tolerance {
+                break;
+            }
+            let (q, v) = y.split_at(self.start.q.len());
+            let (t, q, v) = (*t, q.to_vec(), v.to_vec());
+            let magnified = self.magnified(way, &State { t, q, v }, known, effort);
+            error = error.min(apart / magnified.unwrap_or(1.0).max(1.0));
+        }
+        Ok(error)
     }
 
     /// The factor by which the motion magnifies a small change at `place`, a state of it: its states without one are known, with their
@@ -276,7 +299,7 @@ impl Motion<'_> {
         for (k, (place, size)) in places.enumerate() {
             *place += NUDGE * size * if (k % n).is_multiple_of(2) { 1.0 } else { -1.0 };
         }
-        let nudged = assemble(self.mechanism, &nudged, &[])?;
+        let nudged = assemble(&self.mechanism, &nudged, &[])?;
         let changed = self.by(way, &nudged, effort)?;
         let known = &known[known.len() - changed.len()..];
         Ok(largest(&changed, known, scale) / NUDGE)
