@@ -130,8 +130,13 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     if rows != args.out {
         crate::parquet::write(&rows, &args.out)?;
     }
+    tell(&failed, all, &args.out)
+}
+
+/// Tells how many of `all` runs are in the table, or those that `failed`.
+fn tell(failed: &[(String, String)], all: usize, out: &Path) -> Result<(), Failure> {
     let Some((member, error)) = failed.first() else {
-        let told = format!("{} in {}", count(all, "run"), args.out.display());
+        let told = format!("{} in {}", count(all, "run"), out.display());
         return output::to_stdout(|out| writeln!(out, "{told}"));
     };
     if failed.len() == all {
@@ -139,7 +144,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
             "no run succeeded; the first: {error}"
         )));
     }
-    let which = match &failed[..] {
+    let which = match failed {
         [_] => format!("number {member}"),
         _ => {
             let members = failed.iter().take(SHOWN).map(|(member, _)| member.clone());
@@ -151,7 +156,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
         "{} of {} failed (column `error` of {}): {which}: {error}",
         failed.len(),
         count(all, "run"),
-        args.out.display(),
+        out.display(),
     )))
 }
 
