@@ -118,7 +118,8 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// Ends a step that goes over a singular position at a zero near that, if it is to be cut. Returns whether its interpolant is made, too.
+    /// Ends a step that goes over a singular position at a zero near that, if it is to be cut. Returns whether its interpolant is made,
+    /// too.
     pub(super) fn end_at_zero(
         &mut self,
         trial: Trial,
