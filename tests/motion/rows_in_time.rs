@@ -365,3 +365,54 @@ fn gaits_are_what_their_phases_say() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A mass on a spring whose other end is driven.
+    OnSpring {
+        params { l = 1.0, w = 3.0 }
+        coords { s, r }
+        mass { s: 1, r: 1 }
+        potential { 2 * sq(r - s) }
+        holonomic { motor: s = l * sin(w * t) }
+    }
+}
+
+/// The absolute tolerance is that of the coordinates, not that of the time.
+#[test]
+fn small_motions_are_as_exact_late_as_early() {
+    let times = [0.0, 1e2, 1e4, 1e6].into_iter();
+    for (t, l) in times.flat_map(|t| [1e-3, 1e-6, 1e-9].map(|l| (t, l))) {
+        let state = |t: f64| {
+            let (sin, cos) = (3.0 * t).sin_cos();
+            let (q, v) = (
+                vec![l * sin, -0.8 * l * sin],
+                vec![3.0 * l * cos, -2.4 * l * cos],
+            );
+            State { t, q, v }
+        };
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-6),
+            (Method::Dop853, 1e-8),
+            (Method::Dopri5, 1e-6),
+            (Method::Radau5, 1e-6),
+        ] {
+            let mechanism = OnSpring {
+                l,
+                ..OnSpring::default()
+            };
+            let run = Simulation::new(mechanism)
+                .method(method)
+                .tolerance(tolerance);
+            let run = run.start(state(t)).until(t + 10.0).expect("a motion");
+            let (end, there) = (run.last().expect("an end"), state(t + 10.0));
+            let off = (end.q[1] - there.q[1])
+                .abs()
+                .max((end.v[1] - there.v[1]).abs());
+            assert!(
+                off <= 10.0 * tolerance * l,
+                "{method}, {tolerance:e}, l = {l:e}, from {t:e}: {:e}",
+                off / l
+            );
+        }
+    }
+}

@@ -241,9 +241,9 @@ impl Projector {
     }
 
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
-    /// without such constraints.
-    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
-        let at = At::new(&self.mechanism, Level::Position, t, v);
+    /// without such constraints. It is that at t = 0, as what rounding of a late time makes of a drive is no length.
+    pub(crate) fn length(&mut self, q: &[f64], v: &[f64]) -> f64 {
+        let at = At::new(&self.mechanism, Level::Position, 0.0, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);
         newton.rounding(&at, q, &mut self.manifold.noise, None);

@@ -32,7 +32,7 @@ pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Opti
     let units = units(mech, from);
     let free = null_space(constraint_matrix(mech, from), &units);
     let mut projector = Projector::new(mech);
-    let size = or_one(largest(&from.q).max(projector.length(from.t, &from.q, &from.v)));
+    let size = or_one(largest(&from.q).max(projector.length(&from.q, &from.v)));
     let shares = DVector::from_vec(random.vector(free.ncols()));
     let mut way = (free * shares).component_mul(&units);
     let longest = way.amax();

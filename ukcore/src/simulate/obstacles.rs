@@ -297,7 +297,7 @@ fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Opti
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.
 fn size(mechanism: &Prepared, at: Sample<'_>, measure: &Measure) -> f64 {
-    let lengths = || Projector::new(mechanism).length(at.t, at.q, at.v);
+    let lengths = || Projector::new(mechanism).length(at.q, at.v);
     let sizes = [measure.size(at.q), measure.radian()].into_iter();
     let mut sizes = sizes.chain(std::iter::once_with(lengths)).chain([1.0]);
     let good = |size: &f64| *size > 0.0 && size.is_finite();

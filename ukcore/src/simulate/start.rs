@@ -107,7 +107,7 @@ impl Simulation {
         let most = reach.unwrap_or(1.0);
         if size > 0.0 && size < most {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
-            size = size.max(projector.length(t, &new_q, &v));
+            size = size.max(projector.length(&new_q, &v));
         }
         // A start at zero in all coordinates has no size.
         let size = if size > 0.0 { size.min(most) } else { most };

@@ -297,7 +297,7 @@ fn projection(mech: &Prepared, state: &State, random: &mut Random, found: &mut F
         return;
     }
     let mut projector = Projector::new(mech);
-    let size = largest(&state.q).max(projector.length(state.t, &state.q, &state.v));
+    let size = largest(&state.q).max(projector.length(&state.q, &state.v));
     let sizes = [size, size.max(largest(&state.v))];
     let mut failed = None;
     for off in OFF {
