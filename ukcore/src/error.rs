@@ -251,14 +251,26 @@ impl Error {
     ) -> Self {
         let known: Vec<String> = names.map(str::to_owned).collect();
         let lower = name.to_lowercase();
-        let differ = |n: &&String| strsim::osa_distance(&lower, &n.to_lowercase());
-        // Less than half of it differs, or one letter of two, as for names in a declaration.
+        // Less than half of it differs, or one letter of two; or one is the beginning of the other.
         let alike = |n: &&String| {
+            let differ = strsim::osa_distance(&lower, &n.to_lowercase());
             let length = n.chars().count().max(name.chars().count());
-            let differ = differ(n);
-            2 * differ < length || differ == 1 && length == 2
+            (2 * differ < length || differ == 1 && length == 2).then_some(differ)
         };
-        let nearest = known.iter().min_by_key(differ).filter(alike).cloned();
+        let begins = |n: &&String| {
+            let n = n.to_lowercase();
+            let [short, long] = if n.len() < lower.len() {
+                [&n, &lower]
+            } else {
+                [&lower, &n]
+            };
+            short.len() > 2 && long.starts_with(short)
+        };
+        let nearest = known.iter().filter_map(|n| Some((alike(&n)?, n))).min();
+        let nearest = nearest
+            .map(|(_, n)| n)
+            .or_else(|| known.iter().find(begins))
+            .cloned();
         Error::UnknownName {
             kind,
             name: name.to_owned(),
@@ -418,7 +430,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_near_if_less_than_half_of_it_differs_or_one_letter_of_two() {
+    fn a_name_is_near_if_less_than_half_of_it_differs_or_it_begins_alike() {
         for (name, known, near) in [
             ("rodd", "rod", true),
             ("TH1", "th1", true),
@@ -428,6 +440,8 @@ mod tests {
             ("pin", "bar", false),
             ("abcd", "abxy", false),
             ("", "x", false),
+            ("knife", "knife-edge", true),
+            ("barrel", "bar", true),
         ] {
             let error = Error::unknown_name("coordinate", name, &mut [known].into_iter());
             let Error::UnknownName { nearest, .. } = error else {

@@ -97,15 +97,7 @@ pub fn main(models: &[Entry]) -> ExitCode {
 /// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
 #[must_use]
 pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
-    // Programs are called as their users call them.
-    let own = std::env::args_os().next().map(PathBuf::from);
-    let own = own.as_deref().and_then(Path::file_stem);
-    let own = own.map(|name| name.to_string_lossy().into_owned());
-    let command = match own {
-        Some(own) => C::command().name(own),
-        None => C::command(),
-    };
-    let matches = command.try_get_matches();
+    let matches = C::command().name(program()).try_get_matches();
     let mut matches = matches.unwrap_or_else(|error| answered(error).exit());
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
@@ -175,8 +167,10 @@ fn program() -> String {
     let called = std::env::args_os()
         .next()
         .unwrap_or_else(|| OsString::from("uk"));
-    let name = Path::new(&called).file_stem().unwrap_or(&called);
-    name.to_string_lossy().into_owned()
+    let name = Path::new(&called).file_name().unwrap_or(&called);
+    let name = name.to_string_lossy();
+    let end = std::env::consts::EXE_SUFFIX;
+    name.strip_suffix(end).unwrap_or(&name).to_owned()
 }
 
 /// Finds the model called `id` on the command line.

@@ -107,9 +107,14 @@ impl Course {
         self.along * a < self.along * b
     }
 
-    /// The step of size `h` from here; `None` where it would be lost in rounding.
+    /// The step of size `h` from here; `None` where it would be lost in rounding. Where no time lies between its end and that of the run, it
+    /// is the last one.
     pub(crate) fn step(&self, h: f64) -> Option<Trial> {
-        self.towards(self.place(self.now.s + h), h, false)
+        let end = self.place(self.now.s + h);
+        match end.t == self.end.t {
+            true => self.towards(self.end, self.end.s - self.now.s, true),
+            false => self.towards(end, h, false),
+        }
     }
 
     /// The step of the proposed size as the last one: it may go on behind the end of the run.

@@ -74,7 +74,8 @@ pub enum Method {
     Radau5,
     /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any
     /// number of steps, without a trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the
-    /// constraints by itself, without projection. Its interpolant is a cubic.
+    /// constraints by itself, without projection. Its interpolant is a cubic. Steps near and over singular positions are made by
+    /// [`Dop853`](Method::Dop853).
     Rattle {
         /// Largest size of a step, in units of time; the run is divided into equal ones. It is the accuracy: no tolerance is looked at.
         step: f64,
@@ -180,6 +181,10 @@ pub(crate) trait Problem {
     /// The singular position where a constraint loses its row of A by itself, within the step from `old` to `new`, or near `old` where
     /// there was no step.
     fn vanishing(&mut self, _old: Sample<'_>, _new: Option<Sample<'_>>) -> Option<Singular> {
+        None
+    }
+    /// The singular position between `old` and `beyond`, a state that need not be one of the motion, where a constraint loses its row of A.
+    fn vanishing_before(&self, _old: Sample<'_>, _beyond: Sample<'_>) -> Option<Singular> {
         None
     }
     /// Whether coordinates are all of one kind, and none has a size of its own: M and A are constant, and no angle is among them.

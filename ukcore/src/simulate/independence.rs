@@ -19,7 +19,7 @@ const IMPLIED: f64 = 1e-3;
 const WEIGHTY: f64 = 4.0;
 
 /// The factorisation, in an order of rows that keeps it sparse.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Independence {
     /// W.
     weights: Vec<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Independence {
 }
 
 /// A column of the factor: the row, its place on the diagonal, and where the others end.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Column {
     row: usize,
     diagonal: usize,

@@ -10,7 +10,7 @@ use crate::mechanism::Prepared;
 const OWN: f64 = 0.1;
 
 /// The pattern of A by rows.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Leaves {
     rows: Vec<Row>,
     /// Places of entries in A, column-major: of each row, those of its own first.
@@ -18,7 +18,7 @@ pub(super) struct Leaves {
 }
 
 /// A row: where its entries end, and how many are its own.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Row {
     row: usize,
     own: usize,

@@ -212,6 +212,13 @@ impl Problem for Run<'_> {
         obstacles::vanishing(mechanism, found, old)
     }
 
+    fn vanishing_before(&self, old: Sample<'_>, beyond: Sample<'_>) -> Option<Singular> {
+        let mechanism = self.solver.mechanism();
+        // What the watch keeps is of the motion.
+        let found = self.rows.clone().vanishing(mechanism, old, beyond)?;
+        obstacles::vanishing(mechanism, found, old)
+    }
+
     fn is_even(&self) -> bool {
         let structure = &self.solver.mechanism().spec().structure;
         structure.mass_constant && structure.jacobian_constant && structure.angles.is_empty()

@@ -109,7 +109,7 @@ impl Vanishing {
 }
 
 /// The rows of A along a run.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct RowWatch {
     /// The greatest length of each so far, and when it had that.
     sizes: Vec<f64>,

@@ -84,7 +84,7 @@ struct Variables<'a, N> {
     /// How often each node is read, by its index.
     uses: Vec<usize>,
     reciprocals: Set<Id>,
-    /// Whether a node has one though it is read once.
+    /// Whether a node becomes a variable though it is read once.
     named: N,
 }
 
@@ -106,8 +106,8 @@ impl<N: Fn(Id) -> bool> Variables<'_, N> {
         Some(if sine { (id, other) } else { (other, id) })
     }
 
-    /// Whether a node is one; sine and cosine of one argument are two beside these.
-    fn contain(&self, id: Id) -> bool {
+    /// Whether a node becomes a variable; sine and cosine of one argument are two beside these.
+    fn contains(&self, id: Id) -> bool {
         match self.g.node(id) {
             Node::Const(_) | Node::Symbol(_) => false,
             // A sign is cheaper than a variable.
@@ -140,7 +140,7 @@ impl<N: Fn(Id) -> bool> Variables<'_, N> {
                 done[sin.index()] = true;
                 done[cos.index()] = true;
                 steps.push(Step::SinCos { sin, cos });
-            } else if self.contain(id) {
+            } else if self.contains(id) {
                 steps.push(Step::Let(id));
             }
             // A reciprocal directly after its base.

@@ -102,7 +102,7 @@ pub(crate) enum Node {
     Call(Func, Vec<Id>),
     /// The node itself, kept whole: products do not open it, so that it is computed once for all its users.
     Held(Id),
-    /// Of [a, b, c, d], c where a ≤ b, else d.
+    /// One of four operands [a, b, c, d]: c where a ≤ b, else d.
     Select([Id; 4]),
 }
 

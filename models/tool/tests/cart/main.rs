@@ -55,6 +55,12 @@ fn fails(args: &str, code: i32, message: &str) {
 const GUESS: &str = "--guess x=0.4 --guess y=-0.2 --hold s";
 
 #[test]
+fn a_program_tells_its_own_name() {
+    let version = output("--version");
+    assert!(version.starts_with("cart by uktool "), "{version}");
+}
+
+#[test]
 fn a_mechanism_is_listed_with_its_starts() {
     let list = output("list");
     assert!(

@@ -12,7 +12,7 @@ use crate::integrate::course::{Place, Trial};
 use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Method, Outcome, Purpose, Singular, Tolerance};
+use crate::integrate::{Method, Outcome, Problem, Purpose, Singular, Tolerance};
 use crate::scan::axpy;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -74,6 +74,9 @@ const BEYOND: usize = 8;
 
 /// Positions nearer to each other than this share of the way to one of them are one, and where it is the nearest state to it knows best.
 const ONE: f64 = 1e-3;
+
+/// A motion that turns beside a position farther off than this share of a step that came to nothing is not what that step failed at.
+const TURNS_WITHIN: f64 = 0.1;
 
 /// The least share of the way to a position that is gone at once.
 const LEAST: f64 = 0.1;
@@ -429,13 +432,9 @@ impl Driver<'_> {
         let found = found.filter(|found| !undone || gap.is_none() || found.gap == 0.0);
         let end = Sample::of(trial.end.t, self.scheme.end());
         let found = found.or_else(|| problem.vanishing(here, made.then_some(end)));
-        let found = found.or_else(|| {
-            // Nor does it get where the motion would be without forces, which may be beyond the position.
-            let mut beyond = self.scheme.start().to_vec();
-            let (q, v) = beyond.split_at_mut(here.q.len());
-            axpy(trial.h, v, q);
-            let missed = !made && gap.is_none();
-            missed.then(|| problem.vanishing(here, Some(Sample::of(trial.end.t, &beyond))))?
+        let found = found.or_else(|| match made || gap.is_some() {
+            true => None,
+            false => missed(&**problem, here, trial),
         });
         let known = found.as_ref().or(self.passage.ahead.as_ref());
         let over = known.filter(|_| self.passage.passing && made);
@@ -523,12 +522,13 @@ impl Driver<'_> {
         let (course, passage) = (&mut self.equations.course, &mut self.passage);
         let left = course.ahead(found.t);
         let undecided = found.gap.is_nan() && left > 0.0;
-        // Where the run stands: a stage of a step that comes to nothing may be near by chance; so may one of a step that is far too long.
+        // Where the run stands: a stage of a step that comes to nothing may be near by chance.
         let known = passage.ahead.is_some();
         let close = known && found.gap == 0.0 && found.rate * left < CLOSE;
         let way = course.now.s.abs() + left;
         let nearer = match made {
             true => (left > MET * way).then_some(course.along * UP_TO * left),
+            // So may one of a step that is far too long.
             false => (!known).then_some(0.5 * trial.h),
         };
         let nearer = nearer.filter(|_| undecided && passage.plans < PLANS);
@@ -564,4 +564,16 @@ impl Driver<'_> {
         let before = bounded || left - size > OFF * left / middle;
         size <= most.max(0.51 * left) || trial.last && size < left && before
     }
+}
+
+/// The singular position that a step of the one size, attempted from `here`, comes to nothing before: the motion as it would be without
+/// forces gets over it in that time or twice as much, and turns no farther beside it than a share of the step.
+fn missed(problem: &dyn Problem, here: Sample<'_>, trial: Trial) -> Option<Singular> {
+    let mut found = [1.0, 2.0].into_iter().filter_map(|times| {
+        let way = times * trial.h;
+        let mut beyond = [here.q, here.v].concat();
+        axpy(way, here.v, &mut beyond[..here.q.len()]);
+        problem.vanishing_before(here, Sample::of(here.t + way, &beyond))
+    });
+    found.find(|found| found.gap.is_nan() || found.gap <= TURNS_WITHIN * trial.h.abs())
 }

@@ -134,7 +134,7 @@ impl Switches {
                 look(theta, values);
                 self.inside(k, values[k])
             };
-            rough |= search(places, at, value, &mut found);
+            rough |= search((places, free), at, value, &mut found);
         }
         (self.buffers, self.dips) = (buffers, found);
         match self.dips.is_empty() {
@@ -158,9 +158,10 @@ impl Switches {
     }
 }
 
-/// Adds to those `found` the places where a function, known `at` some `places` of a step, gets below zero. Whether it is too rough to tell.
+/// Adds to those `found` the places where a function, known `at` some `places` of a step that may be without forces, gets below zero.
+/// Whether it is too rough to tell.
 fn search(
-    places: &[f64],
+    (places, free): (&[f64], bool),
     at: impl Fn(usize) -> f64 + Copy,
     mut value: impl FnMut(f64) -> f64,
     found: &mut Vec<f64>,
@@ -171,7 +172,7 @@ fn search(
         let Ok(place) = below(g, -DEPTH * range, a, b);
         found.extend(place);
     };
-    if *places == ENDS {
+    if !free {
         if may_dip([0, 1, 2, 3].map(at), range) {
             within(0.0, 1.0);
         }

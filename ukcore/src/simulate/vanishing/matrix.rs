@@ -6,6 +6,7 @@ use crate::mechanism::Prepared;
 use crate::simulate::leaves::Leaves;
 
 /// A at a time; there is none at NaN.
+#[derive(Clone)]
 pub(super) struct Matrix {
     pub(super) t: f64,
     pub(super) entries: Vec<f64>,

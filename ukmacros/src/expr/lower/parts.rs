@@ -492,7 +492,7 @@ impl<'m> Lowering<'m> {
         }
         let dimension = dimension(name, values);
         let part = chosen(name, dimension, args.len());
-        let part = part.map_err(|message| self.diag.error(name.span(), message));
+        let part = part.inspect_err(|message| self.diag.error(name.span(), message));
         let part = part.ok()?;
         let mut inner = Env::new(&Scope::new(self.model), Place::Let);
         let mut sound = true;
