@@ -52,6 +52,7 @@ impl Driver<'_> {
     }
 
     /// Goes back to where the motion has come from, if the run stands at a singular position or just before one. Returns whether it did.
+    /// Refuses a start at one where nothing tells where it has come from.
     pub(super) fn launch(&mut self) -> Result<bool, Error> {
         if self.gap.is_none() || self.shown.is_some() {
             return Ok(false);
@@ -83,6 +84,11 @@ impl Driver<'_> {
             }
         }
         self.equations.problem.go_on_from(now.t, at_start);
+        if at_start && position.t == now.t {
+            // On it nothing tells one branch from another.
+            self.passage.expect(position);
+            return Err(self.passage.untold());
+        }
         Ok(false)
     }
 
