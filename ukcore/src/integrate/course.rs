@@ -107,8 +107,8 @@ impl Course {
         self.along * a < self.along * b
     }
 
-    /// The step of size `h` from here; `None` where it would be lost in rounding. Where no time lies between its end and that of the run, it
-    /// is the last one.
+    /// The step of size `h` from here; `None` where it would be lost in rounding. Where no time lies between its end and that of the run,
+    /// it is the last one.
     pub(crate) fn step(&self, h: f64) -> Option<Trial> {
         let end = self.place(self.now.s + h);
         match end.t == self.end.t {
