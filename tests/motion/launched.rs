@@ -39,7 +39,7 @@ ukcore::multibody! {
 
 ukcore::multibody! {
     /// The parallelogram as it passes the line of the axles.
-    Pendulum {
+    pub(crate) Pendulum {
         params { k = 1.0 }
         coords { a }
         mass { a: 1 }
@@ -88,7 +88,11 @@ fn cranked(a: f64, rate: f64) -> State {
 }
 
 /// The angle and its rate at the end of the same motion in one coordinate.
-fn alone<M: Mechanism + Clone>(mechanism: &M, [a, rate]: [f64; 2], until: f64) -> [f64; 2]
+pub(crate) fn alone<M: Mechanism + Clone>(
+    mechanism: &M,
+    [a, rate]: [f64; 2],
+    until: f64,
+) -> [f64; 2]
 where
     Prepared: From<M>,
 {

@@ -144,3 +144,48 @@ fn a_late_time_is_named() {
         assert!(error.contains("so late the time is known to"), "{error}");
     }
 }
+
+ukcore::multibody! {
+    /// An oscillator with friction that may be 0.
+    Rubbed {
+        params { mu = 0.0 }
+        coords { x }
+        mass { x: 1 }
+        force { x: -4 * x - mu * sign(dot(x)) }
+    }
+}
+
+/// Between the zero and the end there may be no time.
+#[test]
+fn runs_end_where_a_switch_is_zero_early_and_late() {
+    for t in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6] {
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-6),
+            (Method::Dop853, 1e-10),
+            (Method::Dop853, 1e-12),
+            (Method::Dopri5, 1e-10),
+            (Method::Dopri5, 1e-12),
+            (Method::Radau5, 1e-8),
+        ] {
+            for way in [-3.0, -1.0, -0.1, 0.1, 1.0, 2.0, 3.0] {
+                // At rest at `t`, after less than a half or after more turns.
+                let (sin, cos) = (2.0_f64 * way).sin_cos();
+                let start = State {
+                    t: t + way,
+                    q: vec![cos],
+                    v: vec![-2.0 * sin],
+                };
+                let run = Simulation::new(Rubbed::default()).method(method);
+                let run = run.tolerance(tolerance).start(start).until(t);
+                let run = run.unwrap_or_else(|e| panic!("{t:e} {method} {tolerance:e} {way}: {e}"));
+                let end = run.last().expect("an end");
+                let off = (end.q[0] - 1.0).abs().max(end.v[0].abs());
+                let bound = 30.0 * tolerance + 4.0 * f64::EPSILON * t;
+                assert!(
+                    end.t == t && off <= bound,
+                    "{t:e} {method} {tolerance:e} {way}: {off:e}"
+                );
+            }
+        }
+    }
+}

@@ -198,9 +198,7 @@ impl Manifold {
     /// Whether all constraints are met at `x` but for what rounding leaves of them; takes residuals and A.
     pub(super) fn is_met(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
         self.newton.evaluate(at, x);
-        self.newton.weigh(at, x);
-        self.newton.measure(at, x, &mut self.noise, None);
-        self.newton.violated(at).next().is_none()
+        self.accept(at, x, false)
     }
 
     /// Moves `x` onto the constraints that count beyond doubt, and do not all but vanish there, by as many steps as that takes from nearby.
