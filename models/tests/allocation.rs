@@ -1,9 +1,9 @@
 //! After setup, an acceleration allocates nothing.
 
 use crate::every::{every_model, start};
+use ukcore::Solver;
 use ukcore::manifold::Projector;
-use ukcore::solver::Formula;
-use ukcore::{Solver, SolverOptions};
+use ukcore::solver::{Formula, SolverOptions};
 
 #[test]
 fn acceleration_allocates_nothing() {

@@ -7,9 +7,9 @@ use crate::every::every_model;
 use models::{Model, SliderCrank, UChain, Visitor, visit};
 use nalgebra::{DMatrix, DVector};
 use tests::{Dense, Random, assert_all_close, pseudo_inverse, singular_values};
-use ukcore::solver::Formula;
+use ukcore::solver::{Formula, SolverOptions};
 use ukcore::spec::Pivot;
-use ukcore::{Mechanism, Prepared, Solver, SolverOptions, State};
+use ukcore::{Mechanism, Prepared, Solver, State};
 
 /// Largest distance that may be refused.
 const MARGIN: f64 = 1.0 / 32.0;

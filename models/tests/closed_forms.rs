@@ -8,7 +8,8 @@ use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
 use tests::{Random, assert_all_close, assert_close, largest};
 use ukcore::simulate::Direction;
-use ukcore::{Error, Event, Mechanism, Simulation, Solver, SolverOptions, State, Trajectory};
+use ukcore::solver::SolverOptions;
+use ukcore::{Error, Event, Mechanism, Simulation, Solver, State, Trajectory};
 
 /// Tolerance of the runs; motions are compared with 100 to 1000 times as much, for the error that accumulates.
 const TOLERANCE: f64 = 1e-11;

@@ -2,7 +2,8 @@
 
 use models::{Entry, StartOptions};
 use tests::Random;
-use ukcore::{Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Solver, State};
 
 /// Runs `check` on every model of the registry.
 pub(crate) fn every_model(check: impl Fn(&Entry)) {

@@ -5,9 +5,9 @@ use crate::every::every_state;
 use models::UChain;
 use nalgebra::DVector;
 use tests::{Dense, Random, assert_close, largest};
+use ukcore::Solver;
 use ukcore::equations::{kkt, uk, up};
-use ukcore::solver::Formula;
-use ukcore::{Solver, SolverOptions};
+use ukcore::solver::{Formula, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;

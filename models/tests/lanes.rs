@@ -4,7 +4,8 @@ use models::{Model, Pendulum, Visitor, visit};
 use tests::{Dense, Random, assert_all_close, largest};
 use ukcore::lanes::{LaneSolver, Lanes};
 use ukcore::mechanism::Terms;
-use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Error, Mechanism, Solver, State};
 use wide::{f64x4, f64x8};
 
 /// Elimination multiplies rounding by its condition, which is a hundred in these states.

@@ -5,9 +5,9 @@ use models::SliderCrank;
 use tests::{Dense, Random};
 use ukcore::equations::precise;
 use ukcore::scalar::{DoubleDouble, Scalar};
-use ukcore::solver::Formula;
+use ukcore::solver::{Formula, SolverOptions};
 use ukcore::spec::Pivot;
-use ukcore::{Mechanism, Solver, SolverOptions, State};
+use ukcore::{Mechanism, Solver, State};
 
 ukcore::multibody! {
     /// Twelve links hanging from a support, each end with its own mass.

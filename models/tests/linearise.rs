@@ -3,7 +3,8 @@
 use models::{Model, Pendulum, Visitor, visit};
 use tests::{Random, assert_all_close, largest};
 use ukcore::manifold::Projector;
-use ukcore::{Error, Linearisation, Mechanism, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Error, Linearisation, Mechanism, Solver, State};
 
 /// Truncation and rounding of differences of fourth order, relative to the largest derivative.
 const ACCURACY: f64 = 1e-7;

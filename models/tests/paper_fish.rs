@@ -3,7 +3,8 @@
 use models::{FishRobot, Model, StartOptions};
 use std::f64::consts::PI;
 use tests::{Dense, Random, assert_all_close, assert_close, largest};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State, Trajectory, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver, State, Trajectory, assemble};
 
 /// A gait: A3, ω/π, φ in degrees; and what an independent integration (equations derived by a computer algebra system, tolerance 1e-9)
 /// gives for it: ẍ1(0), m/s², and the mean ẋ1 over t ∈ [3, 4] s, m/s.

@@ -5,7 +5,8 @@ use models::{Model, StartOptions, UChain};
 use serde_json::Value;
 use tests::{assert_all_close, assert_close, largest};
 use ukcore::simulate::Direction;
-use ukcore::{Error, Event, Mechanism, Simulation, Solver, SolverOptions, State, Trajectory};
+use ukcore::solver::SolverOptions;
+use ukcore::{Error, Event, Mechanism, Simulation, Solver, State, Trajectory};
 
 /// For x0 = 12 … 16: lowest point, m, and its time, s, by an independent integration in angles at 1e-12, which agrees with the
 /// 113-bit reference in `models/data/uchain.json` to its digits; deepest acceleration of the tip, m/s².

@@ -5,8 +5,9 @@ use models::{
     RigidBody, SpringPendulum, StartOptions, UChain,
 };
 use tests::largest;
+use ukcore::manifold::Stabilisation;
 use ukcore::solver::Baumgarte;
-use ukcore::{Error, Method, Simulation, Stabilisation, State, Trajectory};
+use ukcore::{Error, Method, Simulation, State, Trajectory};
 
 fn run<M: Model>(mechanism: M, start: State, step: f64, end: f64, every: f64) -> Trajectory {
     Simulation::new(mechanism)

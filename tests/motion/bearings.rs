@@ -2,7 +2,8 @@
 //! mechanisms written in coordinates.
 
 use tests::{assert_all_close, assert_close};
-use ukcore::{Method, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Method, Simulation, Solver, State};
 
 ukcore::multibody! {
     /// A rotor in a bearing that rubs, its axis `tilt` off the vertical.

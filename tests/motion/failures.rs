@@ -1,7 +1,7 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use ukcore::simulate::Switching;
-use ukcore::{Error, Failure, Method, Simulation, State, lost_reactions};
+use ukcore::simulate::{Failure, Switching};
+use ukcore::{Error, Method, Simulation, State, lost_reactions};
 
 ukcore::multibody! {
     /// Two constraints on x + y that agree at t = 0 only.

@@ -2,8 +2,7 @@
 //! it is held and how it goes on.
 
 use tests::{assert_all_close, assert_close};
-use ukcore::simulate::Switching;
-use ukcore::simulate::{Direction, Ending, Sample};
+use ukcore::simulate::{Direction, Ending, Sample, Switching};
 use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 /// A puck on a spring from the origin, rubbed by a force of size `f`.

@@ -4,7 +4,8 @@
 use super::tree::outputs;
 use std::f64::consts::FRAC_PI_2;
 use tests::{Random, assert_all_close};
-use ukcore::{Mechanism, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Solver, State};
 
 /// q̈ of a mechanism with its default parameters.
 fn accelerations<M: Mechanism>(q: &[f64], v: &[f64]) -> Vec<f64> {

@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use tests::{Random, hunted, largest};
 use ukcore::equations::precise;
 use ukcore::manifold::Projector;
-use ukcore::{Mechanism, Prepared, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Prepared, Solver};
 
 ukcore::multibody! {
     /// A body by its angular velocity, of which the kinetic energy knows nothing but the direction.

@@ -17,8 +17,8 @@ use tests::{Dense, Random, assert_all_close, largest};
 use ukcore::equations::up;
 use ukcore::manifold::{Projector, Stabilisation};
 use ukcore::simulate::Sample;
-use ukcore::solver::Formula;
-use ukcore::{Ensemble, Error, Mechanism, Prepared, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Ensemble, Error, Mechanism, Prepared, Simulation, Solver, State};
 
 /// The rank tolerance of eq. 19 as printed: below what independent rows keep in these mechanisms, above what drift of 1e-6 lends.
 const RANK: f64 = 1e-4;

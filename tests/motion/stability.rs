@@ -5,8 +5,8 @@ use tests::{Random, hunted};
 use ukcore::manifold::Projector;
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{DoubleDouble, Scalar};
-use ukcore::solver::Formula;
-use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Error, Mechanism, Simulation, Solver, State};
 
 ukcore::multibody! {
     /// N particles and K rods. Parameters say which rod joins what: its vector is Σ c x − (ax, ay) over all particles. A rod without ends

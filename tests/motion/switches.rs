@@ -3,7 +3,8 @@
 use tests::{Random, assert_all_close, assert_close};
 use ukcore::mechanism::Branch;
 use ukcore::scalar::Dual;
-use ukcore::{Mechanism, Prepared, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Prepared, Solver};
 
 ukcore::multibody! {
     /// A kink or jump of each kind, in each part of the equations; one function may have several.

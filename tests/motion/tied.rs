@@ -2,7 +2,8 @@
 
 use tests::Random;
 use ukcore::scalar::{DoubleDouble, Scalar};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State, lost_reactions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver, State, lost_reactions};
 
 ukcore::multibody! {
     /// A flywheel, and a yoke on a spring that a pin of it moves.

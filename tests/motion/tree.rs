@@ -3,7 +3,8 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use tests::{Random, assert_all_close, assert_close};
-use ukcore::{Mechanism, Prepared, Simulation, Solver, SolverOptions, State, Trajectory, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Prepared, Simulation, Solver, State, Trajectory, assemble};
 
 /// A chain of bodies, the first of which is free: the joints, those that hold velocities only, and all else.
 macro_rules! chain {

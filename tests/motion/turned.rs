@@ -5,8 +5,9 @@ use nalgebra::DMatrix;
 use tests::{Dense, Random, singular_values};
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{DoubleDouble, Scalar};
+use ukcore::solver::SolverOptions;
 use ukcore::spec::Pivot;
-use ukcore::{Mechanism, Solver, SolverOptions, State};
+use ukcore::{Mechanism, Solver, State};
 
 ukcore::multibody! {
     /// Cranks side by side, coupled by rods, with point masses at their tops.

@@ -265,7 +265,7 @@ fn beside_an_apex_the_motion_swings_round_and_in_it_the_cone_is_named() {
 }
 
 /// `failure` is for the constraint called `name`, not after `t`.
-fn named(failure: &ukcore::Failure, name: &str, t: f64) {
+fn named(failure: &ukcore::simulate::Failure, name: &str, t: f64) {
     let Error::At {
         t: found, source, ..
     } = &failure.error

@@ -2,7 +2,8 @@
 
 use super::joints::{random_state, solved};
 use tests::{Random, assert_close};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver, State, assemble};
 
 ukcore::multibody! {
     /// Two planar bodies and all that acts on them.

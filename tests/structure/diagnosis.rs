@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use models::{DoubleScottRussell, KnifeEdge, Model};
 use tests::{assert_close, at_rest};
-use ukcore::{Mechanism, Redundant, Simulation, State, diagnose, diagnose_along};
+use ukcore::studies::Redundant;
+use ukcore::{Mechanism, Simulation, State, diagnose, diagnose_along};
 
 ukcore::multibody! {
     /// A slider-crank in points whose rod is as long as its crank: upright, crank and rod fold onto each other, and the slider may stay at

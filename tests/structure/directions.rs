@@ -4,7 +4,8 @@
 use std::fmt::Debug;
 use tests::assert_all_close;
 use ukcore::equations::precise;
-use ukcore::{Mechanism, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Solver};
 
 ukcore::multibody! {
     /// A crank that is turned.

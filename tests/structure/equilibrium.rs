@@ -2,8 +2,8 @@
 //! at rest, and coordinates that are zero.
 
 use tests::{Random, assert_all_close, at_rest, largest};
-use ukcore::solver::Formula;
-use ukcore::{Simulation, Solver, SolverOptions, State, assemble};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Simulation, Solver, State, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.

@@ -1,9 +1,10 @@
 //! Efforts of motors against closed forms.
 
 use tests::assert_close;
+use ukcore::solver::SolverOptions;
+use ukcore::studies::Posture;
 use ukcore::{
-    Error, Mechanism, Posture, Prepared, Simulation, Solver, SolverOptions, State, inverse,
-    inverse_forces, kinematics,
+    Error, Mechanism, Prepared, Simulation, Solver, State, inverse, inverse_forces, kinematics,
 };
 
 ukcore::multibody! {
@@ -218,7 +219,11 @@ fn a_crank_takes_the_torque_of_its_slider() {
     assert_close("shared force", both[1].effort, share * speeds[1], 1e-9);
 }
 
-fn efforts_of(mechanism: &impl Mechanism, posture: &Posture, on: &[&str]) -> Vec<ukcore::Effort> {
+fn efforts_of(
+    mechanism: &impl Mechanism,
+    posture: &Posture,
+    on: &[&str],
+) -> Vec<ukcore::studies::Effort> {
     inverse_forces(mechanism.prepared(), posture, on).unwrap()
 }
 

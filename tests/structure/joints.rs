@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, Vector2, Vector3};
 use tests::{Random, assert_all_close, assert_close};
-use ukcore::{Mechanism, Solution, Solver, SolverOptions, State, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Solution, Solver, State, assemble};
 
 const P: [f64; 3] = [0.3, -0.2, 0.5];
 const R: [f64; 3] = [0.1, 0.4, -0.3];

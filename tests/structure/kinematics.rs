@@ -6,7 +6,8 @@ use std::f64::consts::{PI, TAU};
 
 use tests::FourBar;
 use tests::assert_close;
-use ukcore::{Error, Kinematics, Mechanism, State, kinematics};
+use ukcore::studies::Kinematics;
+use ukcore::{Error, Mechanism, State, kinematics};
 
 ukcore::multibody! {
     /// Slider-crank of bodies; the slider moves along x.

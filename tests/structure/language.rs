@@ -4,8 +4,8 @@
 use nalgebra::DMatrix;
 use tests::{Dense, Random, assert_all_close, assert_close};
 use ukcore::scalar::{Dual, Scalar};
-use ukcore::solver::Formula;
-use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Error, Mechanism, Solver, State};
 
 ukcore::multibody! {
     /// Every function, in both forms, of arguments with either sign.

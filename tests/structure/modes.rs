@@ -1,7 +1,8 @@
 //! Modes about rest positions and steady motions, against closed forms.
 
 use tests::{assert_all_close, assert_close, at_rest};
-use ukcore::{Error, Mechanism, Mode, State, modes};
+use ukcore::studies::Mode;
+use ukcore::{Error, Mechanism, State, modes};
 
 ukcore::multibody! {
     /// Masses in a row between two walls, with springs between neighbours.
@@ -247,7 +248,11 @@ fn what_costs_nothing_is_told_from_what_is_slow() {
             .start("turned", &[("angle", angle)].into())
             .unwrap();
         let found = ukcore::equilibrium(&inversor, &start, &[]).unwrap();
-        assert_eq!(found.stability, ukcore::Stability::Neutral, "{angle}");
+        assert_eq!(
+            found.stability,
+            ukcore::studies::Stability::Neutral,
+            "{angle}"
+        );
         assert_all_close("where it was", &found.state.q, &start.q, 1e-14);
         let modes = modes(&inversor, &found.state).unwrap();
         let values: Vec<_> = modes.iter().map(|m| (m.growth, m.frequency)).collect();
@@ -353,7 +358,7 @@ fn modes_of_one(mechanism: &impl Mechanism, one: &[Mode], copies: usize) {
     let mechanism = ukcore::mechanism::Prepared::from(mechanism);
     let guess = at_rest(&vec![0.5; 2 * copies]);
     let place = ukcore::equilibrium(&mechanism, &guess, &[]).unwrap();
-    assert_eq!(place.stability, ukcore::Stability::Stable);
+    assert_eq!(place.stability, ukcore::studies::Stability::Stable);
     let found = modes(&mechanism, &place.state).unwrap();
     assert_eq!(found.len(), copies * one.len());
     let size = one.iter().map(Mode::size).fold(0.0, f64::max);
@@ -464,7 +469,11 @@ fn coinciding_frequencies_do_not_grow() {
         };
         let q = g.map(|x| [threads.l * x / size; Threads::N]).concat();
         let found = ukcore::equilibrium(&threads, &at_rest(&q), &[]).expect("it hangs");
-        assert_eq!(found.stability, ukcore::Stability::Stable, "{g:?}, {c}");
+        assert_eq!(
+            found.stability,
+            ukcore::studies::Stability::Stable,
+            "{g:?}, {c}"
+        );
         let found = modes(&threads, &found.state).expect("at rest");
         assert_eq!(found.len(), 2 * Threads::N);
         let lasting = found.iter().filter(|mode| mode.growth == 0.0);

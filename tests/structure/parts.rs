@@ -2,7 +2,8 @@
 
 use tests::leg::Leg;
 use tests::{Random, assert_all_close, largest};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver, State, assemble};
 
 mod tails {
     ukcore::multibody! {

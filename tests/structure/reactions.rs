@@ -2,10 +2,9 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
 use tests::{Random, assert_all_close, assert_close};
-use ukcore::solver::Formula;
+use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{
-    Error, Linearisation, Mechanism, Simulation, Solver, SolverOptions, State, assemble, diagnose,
-    lost_reactions,
+    Error, Linearisation, Mechanism, Simulation, Solver, State, assemble, diagnose, lost_reactions,
 };
 
 use crate::rough::Wire;

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use tests::FourBar;
 use tests::{assert_all_close, assert_close, at};
-use ukcore::{Error, Mechanism, Stability, State, equilibrium};
+use ukcore::studies::Stability;
+use ukcore::{Error, Mechanism, State, equilibrium};
 
 ukcore::multibody! {
     /// Masses on rods of one length between two supports at one height; y points up.
@@ -441,9 +442,9 @@ fn beside_the_top_of_a_hoop_a_bead_rests_at_the_top_or_falls() {
             .unwrap_or_else(|error| panic!("{aside}: {error}"));
         let y = found.state.q[1] / bead.l;
         let expected = if y > 0.0 {
-            (1.0, ukcore::Stability::Unstable)
+            (1.0, ukcore::studies::Stability::Unstable)
         } else {
-            (-1.0, ukcore::Stability::Stable)
+            (-1.0, ukcore::studies::Stability::Stable)
         };
         assert!((y - expected.0).abs() < 1e-12, "{aside}: {y}");
         assert_eq!(found.stability, expected.1, "{aside}");

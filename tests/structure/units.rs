@@ -3,8 +3,8 @@
 //! this is the same bit for bit.
 
 use tests::assert_close;
-use ukcore::solver::Formula;
-use ukcore::{Error, Mechanism, Method, Prepared, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Error, Mechanism, Method, Prepared, Simulation, Solver, State};
 
 /// Powers of length, mass and time.
 type Dimension = [i32; 3];

@@ -17,7 +17,8 @@
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may say of itself besides.
 //!
-//! What most programs need is here at the root; the rest is in the modules, each with what belongs to it.
+//! The types that most programs name are here at the root, and the functions; the rest is in the modules, each with what belongs to it:
+//! settings of a solver in [`solver`], those of a run in [`simulate`], what a study returns in [`studies`].
 //!
 //! Notation is that of Zhao, Zhen & Chen 2013 (DOI 10.3901/CJME.2013.05.839), whose equation numbers the documentation cites:
 //! n coordinates q, m constraints of which the first h are holonomic, M q̈ = Q + Qc (eqs. 1, 13), A q̈ = b (eq. 5).
@@ -73,22 +74,33 @@ mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
-pub use branches::{Assembled, assemble_with_alternatives, branches};
-pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
-pub use equilibrium::{Equilibrium, Stability, equilibrium};
+pub use branches::{assemble_with_alternatives, branches};
+pub use diagnosis::{diagnose, diagnose_along, lost_reactions};
+pub use equilibrium::equilibrium;
 pub use error::Error;
-pub use inverse::{Effort, Inverse, Posture, inverse, inverse_forces};
-pub use kinematics::{Kinematics, Limit, kinematics};
+pub use inverse::{inverse, inverse_forces};
+pub use kinematics::kinematics;
 pub use linearise::Linearisation;
-pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};
-pub use modes::{Mode, modes};
+pub use modes::modes;
 #[cfg(feature = "ensemble")]
 pub use simulate::Ensemble;
-pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
-pub use solver::{Solution, Solver, SolverOptions};
+pub use simulate::{Event, Method, Simulation, Trajectory};
+pub use solver::{Solution, Solver};
 pub use ukmacros::multibody;
-pub use verify::{Unverified, Verified, verify};
+pub use verify::verify;
+
+/// What the studies of a mechanism, which are functions at the root, return: [`assemble_with_alternatives`], [`diagnose`],
+/// [`equilibrium`](equilibrium()), [`modes`](modes()), [`kinematics`](kinematics()), [`inverse`](inverse()) and [`verify`](verify()).
+pub mod studies {
+    pub use crate::branches::Assembled;
+    pub use crate::diagnosis::{Diagnosis, Redundant};
+    pub use crate::equilibrium::{Equilibrium, Stability};
+    pub use crate::inverse::{Effort, Inverse, Posture};
+    pub use crate::kinematics::{Kinematics, Limit};
+    pub use crate::modes::Mode;
+    pub use crate::verify::{Unverified, Verified};
+}
 
 /// What emitted code calls. Not for other use.
 #[doc(hidden)]

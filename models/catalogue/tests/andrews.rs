@@ -2,7 +2,8 @@
 
 use catalogue::Andrews;
 use tests::{assert_all_close, assert_close};
-use ukcore::{Solver, SolverOptions};
+use ukcore::Solver;
+use ukcore::solver::SolverOptions;
 
 #[test]
 fn it_is_where_the_literature_has_it() {

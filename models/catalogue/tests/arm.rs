@@ -2,7 +2,8 @@
 
 use catalogue::Arm;
 use tests::assert_all_close;
-use ukcore::{Solver, SolverOptions};
+use ukcore::Solver;
+use ukcore::solver::SolverOptions;
 
 /// q̈ of the joint angles as an articulated-body library (Pinocchio 4.1) gives it.
 #[test]

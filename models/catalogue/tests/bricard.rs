@@ -7,7 +7,8 @@ use tests::{Dense, Random, assert_all_close, assert_close, largest};
 use ukcore::equations::up;
 use ukcore::manifold::Projector;
 use ukcore::simulate::Sample;
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver};
 
 /// Two periods at a tight tolerance: the closed form of the angles, energy, no dense solve, and back at the start.
 #[test]

@@ -3,7 +3,8 @@
 use catalogue::{
     Andrews, Arm, Bicycle, Bricard, Governor, HeavyTop, JansenLeg, RollingDisc, Stewart, Walker,
 };
-use ukcore::{Mechanism, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Solver};
 
 ukcore::verify!(
     Andrews,

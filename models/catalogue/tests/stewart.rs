@@ -4,7 +4,8 @@ use crate::pose::Pose;
 use catalogue::Stewart;
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 use tests::assert_all_close;
-use ukcore::{Solver, SolverOptions, State, assemble};
+use ukcore::solver::SolverOptions;
+use ukcore::{Solver, State, assemble};
 
 /// The pose that the lengths of the legs are made for, at time t, s.
 fn pose(stewart: &Stewart, t: f64) -> Pose {

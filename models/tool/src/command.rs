@@ -212,7 +212,7 @@ pub(crate) fn path_or_stdout(text: &str) -> Result<PathBuf, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ukcore::Stabilisation;
+    use ukcore::manifold::Stabilisation;
 
     #[test]
     fn the_parser_is_consistent() {

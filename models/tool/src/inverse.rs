@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
+use ukcore::Error;
 use ukcore::model::Entry;
-use ukcore::{Effort, Error, Inverse};
+use ukcore::studies::{Effort, Inverse};
 
 use crate::command;
 use crate::failure::Failure;

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
-use ukcore::{Effort, Kinematics, State, kinematics as swept};
+use ukcore::studies::{Effort, Kinematics};
+use ukcore::{State, kinematics as swept};
 
 use crate::columns::{self, Column, labelled};
 use crate::command;

@@ -5,7 +5,8 @@ use std::io::{self, Write};
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::{Error, Mode, Stability, State, equilibrium, modes as modes_of};
+use ukcore::studies::{Mode, Stability};
+use ukcore::{Error, State, equilibrium, modes as modes_of};
 
 use crate::failure::{Failure, told};
 use crate::numbers::{fixed, full, lines, significant, width};

@@ -3,8 +3,9 @@
 use std::ops::{ControlFlow, Range};
 
 use clap::Args;
+use ukcore::manifold::Stabilisation;
 use ukcore::simulate::{Ending, Record, SMALLEST_TOLERANCE, Sample};
-use ukcore::{Error, Method, Simulation, Stabilisation, Trajectory};
+use ukcore::{Error, Method, Simulation, Trajectory};
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;

@@ -1,8 +1,9 @@
 //! Several runs at once: lists of values, each combination of which is a run.
 
 use clap::Args;
+use ukcore::manifold::Stabilisation;
 use ukcore::model::Entry;
-use ukcore::{Error, Method, Stabilisation};
+use ukcore::{Error, Method};
 
 use crate::failure::Failure;
 use crate::motion::{self, Motion};

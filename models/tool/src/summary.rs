@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
+use ukcore::solver::SolverOptions;
 use ukcore::spec::Spec;
-use ukcore::{Solver, SolverOptions, State, Trajectory, lost_reactions};
+use ukcore::{Solver, State, Trajectory, lost_reactions};
 
 use crate::drift::Drift;
 use crate::motion::Motion;

@@ -4,7 +4,8 @@ use std::fmt;
 use std::io::{self, Write};
 
 use ukcore::model::Entry;
-use ukcore::{Assembled, assemble_with_alternatives, branches};
+use ukcore::studies::Assembled;
+use ukcore::{assemble_with_alternatives, branches};
 
 use crate::failure::Failure;
 use crate::scene::{Ready, Start};

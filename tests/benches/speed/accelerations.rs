@@ -3,7 +3,8 @@
 use std::hint::black_box;
 
 use models::{FishRobot, Model, RigidBody, SliderCrank, StartOptions, UChain};
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver, State};
 
 use crate::chain::{self, Chain};
 use crate::dense::Dense;

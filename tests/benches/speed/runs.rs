@@ -6,7 +6,8 @@ use std::hint::black_box;
 use models::{Model, UChain};
 use serde_json::Value;
 use ukcore::lanes::{LaneSolver, Lanes};
-use ukcore::{Ensemble, Mechanism, Simulation, Stabilisation, State};
+use ukcore::manifold::Stabilisation;
+use ukcore::{Ensemble, Mechanism, Simulation, State};
 use wide::{f64x4, f64x8};
 
 use crate::accelerations::states;

@@ -1,7 +1,8 @@
 //! A sled whose blade may not slip at either end of an axle that goes through its centre of mass, or all but does: what further rows say
 //! of the angle is rounding alone, of terms that cancel, and no length that a radian would be worth.
 
-use ukcore::{Mechanism, Method, Prepared, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Method, Prepared, Simulation, Solver, State};
 
 ukcore::multibody! {
     /// As a body, its centre before the axle by a.

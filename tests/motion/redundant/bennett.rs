@@ -1,7 +1,8 @@
 //! Bennett's linkage: four hinges that move though three of five rows that close the loop are redundant. Where it is folded flat two of
 //! these have no entry left, and next to it an error turns them into any direction.
 
-use ukcore::{Mechanism, Method, Simulation, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Method, Simulation, Solver};
 
 ukcore::multibody! {
     /// Links of the lengths a, b, a, b with the twists α, β, α, β, where a/sin α = b/sin β; the fourth is the ground.

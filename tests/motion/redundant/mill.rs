@@ -1,8 +1,9 @@
 //! A pan mill: a wheel on an axle that may flap, led round by a shaft, rolls on the ground. Of the rows that forbid slip the one along the
 //! axle follows from the hinges: a nonholonomic row that is redundant on the constraints alone, among bodies whose M is singular.
 
+use ukcore::simulate::Failure;
 use ukcore::solver::Formula;
-use ukcore::{Failure, Mechanism, Method, Simulation, State};
+use ukcore::{Mechanism, Method, Simulation, State};
 
 macro_rules! mill {
     ($module:ident { $($grip:tt)* }) => {

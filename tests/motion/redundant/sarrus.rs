@@ -2,7 +2,8 @@
 //! everywhere. Where the plates lie flat each pair could swing by itself, where they hang straight one could turn back while the other goes
 //! on: the motion passes both. All along the table has the orientation of the ground, where M has nothing for e₀.
 
-use ukcore::{Mechanism, Simulation, Solver, SolverOptions};
+use ukcore::solver::SolverOptions;
+use ukcore::{Mechanism, Simulation, Solver};
 
 ukcore::multibody! {
     /// Sarrus' linkage; z points up.

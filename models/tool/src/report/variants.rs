@@ -1,9 +1,10 @@
 //! What is compared: the one list of combinations of method, formula and stabilisation.
 
+use ukcore::manifold::Stabilisation;
 use ukcore::simulate::Switching;
 use ukcore::solver::{Baumgarte, Formula};
 use ukcore::spec::Spec;
-use ukcore::{Method, Simulation, Stabilisation};
+use ukcore::{Method, Simulation};
 
 use Engine::{Adaptive, Rattle};
 use Method::{Dop853, Dopri5, Radau5};

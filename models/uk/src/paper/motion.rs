@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use ukcore::{Event, Method, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory};
+use ukcore::manifold::Stabilisation;
+use ukcore::solver::SolverOptions;
+use ukcore::{Event, Method, Simulation, Solver, State, Trajectory};
 use uktool::drift::Drift;
 use uktool::failure::Failure;
 use uktool::scene::{Ready, Start};

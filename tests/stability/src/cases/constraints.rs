@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use models::{DoublePendulum, Model, Pendulum};
-use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::{RANK_TOLERANCE, SolverOptions};
+use ukcore::{Error, Mechanism, Simulation, Solver, State};
 
 use super::{REGULAR, SINGULAR, accelerations_off, end, exact_accelerations, off, swung, worse};
 use crate::mechanisms::{Copies, NearPlanes, ScaledRows};

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use models::{FourBars, SliderCrank, StartOptions, UChain};
 use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Error, Mechanism, Simulation, Solver, State};
 
 use super::{REGULAR, accelerations_off, exact_accelerations, off, worse};
 use crate::mechanisms::{UChain9, UChain33, UChain65};

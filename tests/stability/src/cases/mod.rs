@@ -10,8 +10,8 @@ mod times;
 
 use models::Pendulum;
 use ukcore::equations::precise;
-use ukcore::solver::Formula;
-use ukcore::{Error, Mechanism, Solver, SolverOptions, State, Trajectory};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Error, Mechanism, Solver, State, Trajectory};
 
 use uktool::stability::{Case, Effort};
 

@@ -2,7 +2,8 @@
 
 use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Simulation, Solver, SolverOptions, State};
+use ukcore::solver::SolverOptions;
+use ukcore::{Simulation, Solver, State};
 
 use super::Subject;
 use crate::report::study::Limits;

@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 
 use ukcore::manifold::Projector;
 use ukcore::simulate::Ending;
-use ukcore::solver::Formula;
-use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
+use ukcore::solver::{Formula, SolverOptions};
+use ukcore::{Error, Prepared, Simulation, Solver, State, Trajectory};
 
 use crate::drift::Drift;
 use crate::failure::Failure;
