@@ -9,7 +9,7 @@ use crate::mechanism::Prepared;
 use crate::numbers::{fixed, short};
 use crate::plan::widest;
 use crate::solver::{Solution, Solver, SolverOptions};
-use crate::spec::{ParamSpec, Spec};
+use crate::spec::{OutputSpec, ParamSpec, Spec};
 
 /// All that is known about a mechanism, to print: coordinates, parameters, M, Q, c, A and b as equations, outputs, structure, the
 /// [`Plan`](crate::plan::Plan) of how q̈ is computed; and at a state rank, degrees of freedom, redundant constraints and accelerations.
@@ -69,8 +69,11 @@ impl Explanation {
             write!(f, ", with their value and rate at the start `{name}`")?;
         }
         writeln!(f)?;
-        let wide = widest(spec.coords.iter().copied());
-        for (i, name) in spec.coords.iter().enumerate() {
+        let names = spec.coords.iter().enumerate();
+        let names = names.map(|(i, name)| with_unit(name, spec.coordinate_unit(i)));
+        let names: Vec<String> = names.collect();
+        let wide = widest(names.iter().map(String::as_str));
+        for (i, name) in names.iter().enumerate() {
             let mut line = format!("  {name:<wide$}");
             if let Some(Start { state, .. }) = &self.start {
                 let [q, v] = [&state.q, &state.v].map(|x| fixed(x[i], DIGITS));
@@ -117,12 +120,12 @@ impl fmt::Display for Explanation {
         constraints(f, spec)?;
         if !spec.outputs.is_empty() {
             writeln!(f, "\nOutputs")?;
-            table(f, spec.outputs.iter().map(|o| (o.name, o.doc)))?;
+            described(f, spec.outputs)?;
         }
         let integrals = self.mechanism.integrals();
         if !integrals.is_empty() {
             writeln!(f, "\nIntegrals along a run")?;
-            table(f, integrals.iter().map(|o| (o.name, o.doc)))?;
+            described(f, integrals)?;
         }
         structure(f, spec)?;
         write!(f, "\n{}", self.mechanism.plan())?;
@@ -130,6 +133,22 @@ impl fmt::Display for Explanation {
             Some(start) => at_start(f, spec, start),
             None => Ok(()),
         }
+    }
+}
+
+/// Outputs or integrals with their units, and what they mean in a column beside them.
+fn described(f: &mut Formatter<'_>, outputs: &[OutputSpec]) -> fmt::Result {
+    let names = outputs.iter().map(|o| with_unit(o.name, o.unit));
+    let names: Vec<String> = names.collect();
+    let docs = outputs.iter().map(|o| o.doc);
+    table(f, names.iter().map(String::as_str).zip(docs))
+}
+
+/// A name, with its unit where it has one.
+fn with_unit(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        _ => format!("{name} [{unit}]"),
     }
 }
 

@@ -152,6 +152,7 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let runs = args.runs.each(entry, MOST_RUNS)?;
     let path = args.out.clone();
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
+    output::promised("--out", &path, "html")?;
     let (mut takes, mut notes) = (Vec::new(), args.runs.bare(entry));
     for run in &runs {
         let differs = run.differs.iter();

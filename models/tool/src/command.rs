@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ukcore::Error;
 use ukcore::model::Entry;
@@ -98,7 +98,7 @@ pub fn main(models: &[Entry]) -> ExitCode {
 #[must_use]
 pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
     let matches = C::command().name(program()).try_get_matches();
-    let mut matches = matches.unwrap_or_else(|error| answered(error).exit());
+    let mut matches = matches.unwrap_or_else(|error| answered(error, &C::command()).exit());
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
 
@@ -134,19 +134,40 @@ const ANSWERS: [(&str, &str); 7] = [
     ),
 ];
 
-/// An error of the command line, with the command that answers what is asked for where there is none of its name.
-fn answered(mut error: clap::Error) -> clap::Error {
-    let asked = match error.get(ContextKind::InvalidSubcommand) {
-        Some(ContextValue::String(asked)) => asked.to_lowercase(),
-        _ => return error,
-    };
-    let mut answers = ANSWERS.iter();
-    if let Some((_, answer)) = answers.find(|(names, _)| names.split(' ').any(|n| n == asked)) {
+/// An error of the command line, with the command or option that is meant where there is none of its name.
+fn answered(mut error: clap::Error, whole: &clap::Command) -> clap::Error {
+    if let Some(tip) = meant(&error, whole) {
         error.remove(ContextKind::SuggestedSubcommand);
-        let tip = ContextValue::StyledStrs(vec![(*answer).into()]);
+        let tip = ContextValue::StyledStrs(vec![tip.into()]);
         error.insert(ContextKind::Suggested, tip);
     }
     error
+}
+
+/// The command or option that is meant, unless the error tells.
+fn meant(error: &clap::Error, whole: &clap::Command) -> Option<String> {
+    let string = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.as_str()),
+        _ => None,
+    };
+    if let Some(setting) = string(ContextKind::InvalidArg) {
+        let bare = error.kind() == ErrorKind::UnknownArgument && !setting.starts_with('-');
+        return (bare && setting.contains('='))
+            .then(|| format!("`--set {setting}` sets a parameter or an option of the start"));
+    }
+    let asked = string(ContextKind::InvalidSubcommand)?;
+    let lower = asked.to_lowercase();
+    let mut answers = ANSWERS.iter();
+    if let Some((_, answer)) = answers.find(|(names, _)| names.split(' ').any(|n| n == lower)) {
+        return Some((*answer).to_owned());
+    }
+    let mut commands = whole.get_subcommands().map(clap::Command::get_name);
+    match Error::unknown_name("command", asked, &mut commands) {
+        Error::UnknownName { nearest, .. } => {
+            nearest.map(|name| format!("a similar subcommand exists: '{name}'"))
+        }
+        _ => None,
+    }
 }
 
 /// Writes a failure to standard error, if there is one, and returns the code to end the program with.

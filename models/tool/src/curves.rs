@@ -10,7 +10,7 @@ use crate::command::path;
 use crate::failure::Failure;
 use crate::html::joined;
 use crate::numbers::extremes;
-use crate::output::WholeFile;
+use crate::output::{WholeFile, promised};
 use crate::plot::{Chart, Legend, Series, legend_height, round_range, stacked};
 use crate::units::is_length;
 
@@ -90,6 +90,7 @@ impl Curves {
             return Err(Failure::Usage("`--plot` needs a file".to_owned()));
         };
         let file = path(file).map_err(|e| Failure::Usage(format!("`--plot`: {e}")))?;
+        promised("--plot", &file, "svg")?;
         let (mut over, mut of) = (Vec::new(), Vec::new());
         for curve in curves {
             let (x, y) = curve.split_once(',').unwrap_or((usual, curve));

@@ -1,5 +1,6 @@
 //! Files that are either complete or not there, directories that one program at a time writes to, and standard output.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
@@ -107,6 +108,27 @@ pub(crate) fn apart(named: &[(&str, Option<&Path>)]) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Formats that a file's name may promise.
+const FORMATS: [&str; 14] = [
+    "csv", "eps", "gif", "html", "jpeg", "jpg", "json", "mp4", "parquet", "pdf", "png", "svg",
+    "webm", "webp",
+];
+
+/// Refuses a name for what `option` writes in the format `written` that promises another.
+pub(crate) fn promised(option: &str, path: &Path, written: &str) -> Result<(), Failure> {
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    let other = |ending: &OsString| FORMATS.iter().any(|f| ending == f) && ending != written;
+    match ending.filter(other) {
+        Some(_) => Err(Failure::Usage(format!(
+            "`{option}` writes {}, which `{}` does not promise; name the file `{}`",
+            written.to_uppercase(),
+            path.display(),
+            path.with_extension(written).display()
+        ))),
+        None => Ok(()),
+    }
 }
 
 impl Write for WholeFile {
@@ -289,6 +311,17 @@ pub fn to_stdout(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_promise_another_format_are_refused() {
+        let plotted = |name| promised("--plot", Path::new(name), "svg").map_err(|e| e.message());
+        for fine in ["a.svg", "a.SVG", "a", "run.2", "-", "/dev/stdout", "a.b"] {
+            assert_eq!(plotted(fine), Ok(()), "{fine}");
+        }
+        let message =
+            "`--plot` writes SVG, which `d/a.PNG` does not promise; name the file `d/a.svg`";
+        assert_eq!(plotted("d/a.PNG"), Err(message.to_owned()));
+    }
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_nothing_else() {

@@ -66,6 +66,13 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         ("--plot", plot.map(Path::new)),
         ("--animate", args.animate.as_deref()),
     ])?;
+    for (option, path, written) in [
+        ("--csv", &args.csv, "csv"),
+        ("--animate", &args.animate, "html"),
+    ] {
+        path.as_ref()
+            .map_or(Ok(()), |path| output::promised(option, path, written))?;
+    }
     let ready = args.scene.ready(models)?;
     let mut samples = Samples::new(&ready, args)?;
     let every = match args.every.is_some() || args.plot.is_some() || args.animate.is_some() {

@@ -31,7 +31,9 @@ fn wrong_names_get_the_nearest_right_one() {
             "run fish --set phi=15mm",
             "`phi`: a value in rad is needed, not one in m",
         ),
-        ("rum fish", "run"),
+        ("rum fish", "tip: a similar subcommand exists: 'run'"),
+        ("rnu fish", "tip: a similar subcommand exists: 'run'"),
+        ("run fish phi=1", "tip: `--set phi=1` sets a parameter"),
     ]);
 }
 
@@ -68,6 +70,10 @@ fn wrong_values_are_refused() {
         ("run fish --stabilise glue", "projection"),
         ("run uchain --set x0=99", "x0"),
         ("run fish --json --csv -", "standard output"),
+        ("run fish --csv a.parquet", "name the file `a.csv`"),
+        ("run fish --animate a.mp4", "name the file `a.html`"),
+        ("run fish --plot a.png vx", "name the file `a.svg`"),
+        ("animate fish --out a.gif", "name the file `a.html`"),
     ]);
     fails(&["run", "fish", "--set", "phi=1 000"], USAGE, "1 000");
     for tolerance in ["-1", "nan", "0", "1", "1e-17", "fine"] {
