@@ -272,19 +272,35 @@ impl<'a> Search<'a> {
         let equations = self.shares.len() * k;
         let mut right = Vec::with_capacity(equations);
         let mut matrix = Vec::with_capacity(equations * k);
+        let mut blur = Vec::with_capacity(equations);
+        let roundings = self.rate_roundings();
         for shares in &self.shares {
             for (row, slope) in slopes.iter().enumerate() {
                 right.push(-dot(shares, slope));
                 let seconds = &curvatures[row * k..(row + 1) * k];
                 matrix.extend(seconds.iter().map(|second| dot(shares, second)));
             }
+            blur.extend(roundings.iter().map(|r| rounded(shares, r)));
         }
         let largest = largest(&matrix);
         (largest > 0.0 && largest < f64::INFINITY).then_some(System {
             right,
             matrix,
+            blur,
             largest,
         })
+    }
+
+    /// The rounding of what all rows say of each direction, in units of ε.
+    fn rate_roundings(&mut self) -> Vec<Vec<f64>> {
+        let (m, directions) = (self.mech.spec().m(), self.directions.iter());
+        let roundings = directions.map(|direction| {
+            let mut rounding = vec![0.0; m];
+            (self.noise).go(self.mech, self.t, [&self.q, direction], |_| [0.0; 2]);
+            self.noise.residual_rate(&mut rounding);
+            rounding
+        });
+        roundings.collect()
     }
 
     /// What is found where a step of a system with these residuals has led to, if it is the last one; `None` if there is nothing.
@@ -298,19 +314,19 @@ impl<'a> Search<'a> {
         let left = system.left(step);
         let parts = system.right.chunks_exact(k);
         let parts = parts.zip(system.matrix.chunks_exact(k * k));
+        let parts = parts.zip(system.blur.chunks_exact(k));
         let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
-        for (shares, (right, matrix)) in self.shares.iter().zip(parts) {
+        for (shares, ((right, matrix), blur)) in self.shares.iter().zip(parts) {
             // One alone is critical where the search has come to.
-            let differs = match self.shares.len() {
-                1 => 0.0,
-                _ => least(matrix, right, largest),
+            let [differs, blurred] = match self.shares.len() {
+                1 => [0.0; 2],
+                _ => least(matrix, [right, blur], largest),
             };
             let e = dot(shares, phi) + differs;
-            let pairs = shares.iter().zip(rounding);
-            let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
-                + largest * (f64::EPSILON * self.scale).powi(2);
+            let noise = rounded(shares, rounding) + largest * (f64::EPSILON * self.scale).powi(2);
             last &= largest * size * size <= noise;
             agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
+            let noise = noise + blurred;
             if e.abs() > ZERO * noise {
                 open = open.max(e.abs());
                 doubt |= e.abs() <= GAP * noise;
@@ -449,6 +465,8 @@ struct System {
     right: Vec<f64>,
     /// Row by row.
     matrix: Vec<f64>,
+    /// The rounding of each right-hand side: of rows that all but vanish it is as much as they say.
+    blur: Vec<f64>,
     /// The largest of its numbers.
     largest: f64,
 }
@@ -481,10 +499,18 @@ fn solution(matrix: &[f64], right: &[f64], size: f64) -> (Vec<f64>, usize) {
 }
 
 /// The amount by which a function with these second derivatives by directions, and these slopes, negative, differs where it is critical
-/// from what it is: not quite where others are that vanish with it.
-fn least(second: &[f64], down: &[f64], largest: f64) -> f64 {
+/// from what it is: not quite where others are that vanish with it. And how much of that may be what blurs the slopes.
+fn least(second: &[f64], [down, blur]: [&[f64]; 2], largest: f64) -> [f64; 2] {
     let (step, _) = solution(second, down, largest);
-    -0.5 * dot(down, &step)
+    let pairs = blur.iter().zip(&step);
+    let blurred = pairs.map(|(blur, step)| (blur * step).abs()).sum();
+    [-0.5 * dot(down, &step), blurred]
+}
+
+/// The rounding of the combination of rows that `shares` make up, from theirs in units of ε.
+fn rounded(shares: &[f64], rounding: &[f64]) -> f64 {
+    let pairs = shares.iter().zip(rounding);
+    f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
 }
 
 /// Takes off `x` its parts along orthonormal vectors.
