@@ -188,6 +188,10 @@ fn passes_where_one_row_vanishes_beside_those_that_are_lost() {
         (0.0, 1.57, -5.0, 1e-10),
         (0.0, 2.5, -5.0, 1e-4),
         (0.0, 1.6, 9.0, 1e-10),
+        (9.81, 0.5, -5.0, 1e-12),
+        (9.81, -1e-6, 9.0, 1e-12),
+        (9.81, 2.5, -5.0, 1e-12),
+        (0.0, 0.5, 2.0, 1e-12),
     ];
     for (g, angle, rate, tolerance) in starts {
         let place = format!("{g} {angle} {rate} {tolerance:e}");
@@ -217,7 +221,9 @@ fn passes_where_one_row_vanishes_beside_those_that_are_lost() {
             let [one, other] = InAngles::FOOT_ANGLE;
             assert!((sample.q[one] - sample.q[other]).abs() < 1e-8, "{place}");
             let off = linkage.energy(sample.q[one], sample.v[one]) - energy;
-            assert!(off.abs() < 1e4 * tolerance, "{place}: {off:e}");
+            // What passages are granted.
+            let bound = (1e4 * tolerance).max(1e-9) * energy.abs().max(1.0);
+            assert!(off.abs() < bound, "{place}: {off:e}");
         }
     }
 }

@@ -274,6 +274,7 @@ impl<'a> Search<'a> {
         let mut matrix = Vec::with_capacity(equations * k);
         let mut blur = Vec::with_capacity(equations);
         let roundings = self.rate_roundings();
+        self.attenuate(&roundings);
         for shares in &self.shares {
             for (row, slope) in slopes.iter().enumerate() {
                 right.push(-dot(shares, slope));
@@ -301,6 +302,22 @@ impl<'a> Search<'a> {
             rounding
         });
         roundings.collect()
+    }
+
+    /// Makes components of f that rounding blurs no larger than that their rounding, from that of what rows say of each direction, is some
+    /// times that of the clearest one: they are not to drown it.
+    fn attenuate(&mut self, roundings: &[Vec<f64>]) {
+        let blur = |shares: &Vec<f64>| {
+            let parts = roundings.iter().map(|rounding| rounded(shares, rounding));
+            parts.fold(0.0, f64::max)
+        };
+        let blurs: Vec<f64> = self.shares.iter().map(blur).collect();
+        let most = GAP * blurs.iter().copied().fold(f64::INFINITY, f64::min);
+        for (shares, blur) in self.shares.iter_mut().zip(blurs) {
+            if blur > most {
+                shares.iter_mut().for_each(|share| *share *= most / blur);
+            }
+        }
     }
 
     /// What is found where a step of a system with these residuals has led to, if it is the last one; `None` if there is nothing.
