@@ -39,7 +39,7 @@ pub enum Stabilisation {
     /// Projection of q and q̇ after each accepted step.
     #[default]
     Projection,
-    /// The residuals of the constraints are fed back in b.
+    /// The residuals of the constraints are fed back in b; in a run backward in time with −α in place of α, so that they decay along it.
     Baumgarte(Baumgarte),
     /// Nothing is done against drift: the motion follows A q̈ = b alone.
     None,

@@ -34,6 +34,12 @@ impl Simulation {
         sink: Option<Sink<'s>>,
     ) -> Result<(Recorder<'s>, State, Settings), Error> {
         self.check(t_end, sink.is_none())?;
+        let backward = self.start.as_ref().is_some_and(|start| t_end < start.t);
+        if let Stabilisation::Baumgarte(feedback) = &mut self.stabilisation
+            && backward
+        {
+            feedback.alpha = -feedback.alpha;
+        }
         let mut trajectory = self.trajectory();
         let mut projector = Projector::new(&self.mechanism);
         let (start, floor, tolerance) =

@@ -108,6 +108,26 @@ fn drift_is_visible_without_stabilisation_and_damped_with_baumgarte() {
     assert_eq!(work.projections, 1);
 }
 
+/// As it grows in one direction of time where it decays in the other.
+#[test]
+fn drift_is_damped_with_baumgarte_in_both_directions_of_time() {
+    for (alpha, beta) in [(10.0, 10.0), (100.0, 100.0), (5.0, 0.0)] {
+        for (method, tolerance) in [(Method::Dop853, 1e-4), (Method::Radau5, 1e-8)] {
+            let [forward, backward] = [10.0, -10.0].map(|end| {
+                let run = swing(2.0, tolerance).method(method);
+                let run = run.stabilise(Stabilisation::Baumgarte(Baumgarte { alpha, beta }));
+                let run = run.until(end).unwrap();
+                let drifts = run.residuals().into_iter().map(|r| r.position);
+                drifts.fold(0.0, f64::max)
+            });
+            assert!(
+                backward < 10.0 * forward && forward < 1e4 * tolerance,
+                "{method}, {alpha}, {beta}: {backward:e} beside {forward:e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_run_backward_returns_to_the_start() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
