@@ -2,9 +2,10 @@
 
 use tests::assert_close;
 use ukcore::solver::SolverOptions;
-use ukcore::studies::Posture;
+use ukcore::studies::{Kinematics, Posture};
 use ukcore::{
-    Error, Mechanism, Prepared, Simulation, Solver, State, inverse, inverse_forces, kinematics,
+    Error, Mechanism, Prepared, Simulation, Solver, State, assemble, inverse, inverse_forces,
+    kinematics,
 };
 
 ukcore::multibody! {
@@ -375,5 +376,106 @@ fn what_drives_anywhere_is_a_motor() {
     let first = energy[0].kinetic;
     for (work, kinetic) in run.integral("work").unwrap().iter().zip(kinetic) {
         assert_close("work", *work, kinetic - first, 1e-8);
+    }
+}
+
+/// A driven arm on a rough bearing, and the same one that is free; `$friction` acts on it.
+macro_rules! rough_arms {
+    ($motor:ident, $free:ident, $section:ident, $friction:expr) => {
+        ukcore::multibody! {
+            pub $motor {
+                params { m = 1.0, l = 0.4, j = 0.02, w = 3.0, f = 0.5, mu = 0.3, r = 0.05, g = 9.81 }
+                bodies { planar arm { mass: m, inertia: j, centre: [l, 0] } }
+                gravity { [0, -g] }
+                holonomic { axle: pin(ground.at([0, 0]), arm.at([0, 0])), motor: turn(ground, arm) = w * t }
+                $section { torque(ground, arm, $friction) }
+                output { load = norm(reaction(axle)) }
+            }
+        }
+        ukcore::multibody! {
+            pub $free {
+                params { m = 1.0, l = 0.4, j = 0.02, f = 0.5, mu = 0.3, r = 0.05, g = 9.81 }
+                bodies { planar arm { mass: m, inertia: j, centre: [l, 0] } }
+                gravity { [0, -g] }
+                holonomic { axle: pin(ground.at([0, 0]), arm.at([0, 0])) }
+                $section { torque(ground, arm, $friction) }
+                output { load = norm(reaction(axle)) }
+            }
+        }
+    };
+}
+
+rough_arms!(Even, EvenFree, nonideal, friction(arm.omega, f));
+rough_arms!(Given, GivenFree, forces, friction(arm.omega, f));
+rough_arms!(
+    Loaded,
+    LoadedFree,
+    nonideal,
+    friction(arm.omega, mu * r * norm(reaction(axle)))
+);
+
+/// The torque of a motor that turns such an arm at 3 rad/s, and the load of the axle there.
+fn turned(angle: f64, friction: impl Fn(f64) -> f64) -> [f64; 2] {
+    let (weight, inward) = (9.81, 0.4 * 9.0);
+    let (sin, cos) = angle.sin_cos();
+    let load = (inward * cos).hypot(weight - inward * sin);
+    [weight * 0.4 * cos + friction(load), load]
+}
+
+/// Such an arm held out.
+fn level<M: Mechanism + Default>() -> State {
+    let guess = State::guess::<M>(&[("arm.x", 0.4)]).unwrap();
+    assemble(M::default().prepared(), &guess, &[]).unwrap()
+}
+
+#[test]
+fn motors_overcome_friction() {
+    fn motor<M: Mechanism + Default>(friction: impl Fn(f64) -> f64) {
+        let driven = M::default();
+        let start = level::<M>();
+        let swept = kinematics(driven.prepared(), &start, &[("t", 0.0..1.4)], &[], 4).unwrap();
+        for posture in &swept.postures {
+            let efforts = inverse(driven.prepared(), &posture.state, &["motor"]).unwrap();
+            let [torque, _] = turned(3.0 * posture.state.t, &friction);
+            assert_close(M::SPEC.name, efforts[0].effort, torque, 1e-9);
+            assert_close(M::SPEC.name, efforts[0].power, 3.0 * torque, 1e-9);
+        }
+    }
+    motor::<Even>(|_| 0.5);
+    motor::<Given>(|_| 0.5);
+    motor::<Loaded>(|load| 0.3 * 0.05 * load);
+}
+
+/// Of the motion that a sweep prescribes, reactions are not those that come out of the forces.
+#[test]
+fn reactions_of_swept_coordinates_are_not_told() {
+    fn swept<M: Mechanism + Default>(drive: &str) -> Kinematics {
+        let arm = M::default();
+        let start = level::<M>();
+        kinematics(arm.prepared(), &start, &[(drive, 0.0..1.0)], &[], 4).unwrap()
+    }
+    let free = [
+        swept::<EvenFree>("arm.angle"),
+        swept::<GivenFree>("arm.angle"),
+    ];
+    for found in free.map(|found| found.at_speed(3.0).unwrap()) {
+        let angles = found.coordinate("arm.angle").unwrap();
+        for (angle, efforts) in angles.iter().zip(found.efforts(&["arm.angle"]).unwrap()) {
+            let [torque, _] = turned(*angle, |_| 0.5);
+            assert_close("torque", efforts[0].effort, torque, 1e-9);
+        }
+        let refused = found.output("load").unwrap_err().to_string();
+        let told = refused.contains("`load` depends on reactions") && refused.contains("sweep `t`");
+        assert!(told, "{refused}");
+    }
+    let refused = swept::<LoadedFree>("arm.angle").efforts(&["arm.angle"]);
+    let refused = refused.unwrap_err().to_string();
+    let told = refused.contains("depend on reactions") && refused.contains("`inverse`");
+    assert!(told, "{refused}");
+    // Swept in time they are.
+    let found = swept::<Even>("t");
+    let angles = found.coordinate("arm.angle").unwrap();
+    for (angle, load) in angles.iter().zip(found.output("load").unwrap()) {
+        assert_close("load", load, turned(*angle, |_| 0.0)[1], 1e-9);
     }
 }

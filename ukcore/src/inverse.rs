@@ -49,7 +49,8 @@ const IDLE: f64 = 1e-9;
 /// (`"turn"`), or a row (`"drive.x"`): `motor: turn(ground, crank) = w * t` as a constraint is such a motor.
 ///
 /// Where motors share what they do, as two that drive a mechanism of one degree of freedom, theirs are the efforts whose sum of squares is
-/// least. All other constraints are taken as joints, and may be redundant.
+/// least. All other constraints are taken as joints, and may be redundant. Forces that are declared act besides, non-ideal ones, too: a
+/// motor's effort is what it takes to move against them.
 ///
 /// # Errors
 /// [`Error::UnknownName`] with the nearest name; what [`Solver::solve`] reports.
@@ -103,7 +104,13 @@ impl Inverse {
         let mut acting = rows.select_rows(driven);
         let speeds = &acting * DVector::from_column_slice(v);
         measure(&mut acting, &units);
-        let force = DVector::from_vec(solution.ideal_force).component_mul(&units);
+        // What constraints do in all: they bear what they keep c from doing, too.
+        let mut terms = Evaluated::new(spec.n(), spec.m());
+        terms.dynamics(mech, *t, q, v);
+        let force = DVector::from_vec(solution.ideal_force)
+            + DVector::from_vec(solution.nonideal_force)
+            - DVector::from_vec(terms.nonideal);
+        let force = force.component_mul(&units);
         let efforts = least(&acting, &free, &free.tr_mul(&force));
         let all = driven.iter().zip(efforts.iter()).zip(speeds.iter());
         let effort = |((row, effort), speed): ((&usize, &f64), &f64)| Effort {
@@ -121,7 +128,8 @@ impl Inverse {
 /// # Errors
 /// - [`Error::UnknownName`] with the nearest name; [`Error::WrongLength`], [`Error::NonFinite`].
 /// - [`Error::InvalidSetting`] where the acceleration does not satisfy a constraint, and where forces on these coordinates alone cannot
-///   make the motion, with the coordinate on which a force is missing most.
+///   make the motion, with the coordinate on which a force is missing most; where declared forces depend on reactions, which these forces
+///   would change.
 pub fn inverse_forces(
     mechanism: impl Into<Prepared>,
     posture: &Posture,
@@ -135,6 +143,14 @@ pub fn inverse_forces(
         acceleration,
     } = posture;
     let driven = held(spec, coordinates)?;
+    if spec.structure.loaded {
+        let reason = format!(
+            "are moved against forces of `{}` that depend on reactions, which the forces asked for change; prescribe the motion by a \
+             constraint, of which `inverse` tells the effort",
+            spec.name
+        );
+        return Err(Error::invalid("coordinates", reason));
+    }
     state.check(&mech)?;
     naming::check_length("acceleration", acceleration.len(), n)?;
     if acceleration.iter().any(|a| !a.is_finite()) {

@@ -14,6 +14,7 @@ use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, null_space, units};
 use crate::numbers::significant;
+use crate::spec::OutputSpec;
 
 mod curve;
 mod posture;
@@ -187,10 +188,17 @@ impl Kinematics {
     /// Values of the output called `name` at the postures.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] with the nearest name.
+    /// [`Error::UnknownName`] with the nearest name; [`Error::InvalidSetting`] for one that depends on reactions where coordinates are
+    /// swept, and not `t`: forces that are declared do not make that motion.
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
         let spec = self.mechanism.spec();
         let index = spec.output_index(name)?;
+        let OutputSpec { name, loaded, .. } = spec.outputs[index];
+        if loaded && !self.timed {
+            let reason = "depends on reactions, which are those of the motion that forces make, not of a swept one; prescribe the drive by \
+                          a constraint, and sweep `t`";
+            return Err(Error::invalid(name, reason));
+        }
         let mut row = vec![0.0; spec.outputs.len()];
         let mut value = |posture: &Posture| {
             let State { t, q, v } = &posture.state;

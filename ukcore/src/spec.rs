@@ -67,6 +67,8 @@ pub struct OutputSpec {
     pub doc: &'static str,
     /// The unit of its values, as declared: `"deg"` where they are in degrees; empty for a plain number, and where none is declared.
     pub unit: &'static str,
+    /// Whether it depends on reactions, which are those of the motion that declared forces and constraints make from a state.
+    pub loaded: bool,
 }
 
 /// A start state on offer: declared, or made by a `Model`.

@@ -67,7 +67,7 @@ pub enum Ending {
     Event,
     /// The closure of [`progress`](crate::Simulation::progress) or [`stream`](crate::Simulation::stream) asked for the end.
     Interrupted,
-    /// An error ended the run, which [`Failure`](crate::simulate::Failure) carries.
+    /// An error ended the run, which `simulate::Failure` carries.
     #[default]
     Failed,
 }
@@ -202,7 +202,7 @@ impl Trajectory {
     }
 
     /// The state with which the run ended, be it a sample or not: at the end time, at a terminal event, or after the last step
-    /// that succeeded. `None` only in a [`Failure`](crate::simulate::Failure) of a run that could not start.
+    /// that succeeded. `None` only in a `simulate::Failure` of a run that could not start.
     #[must_use]
     pub fn last(&self) -> Option<Sample<'_>> {
         let integrals = &self.end_integrals[..];

@@ -154,11 +154,13 @@ const _: () = {
                     name: "speed",
                     doc: "Speed along the edge",
                     unit: "m/s",
+                    loaded: false,
                 },
                 ukcore::OutputSpec {
                     name: "spin",
                     doc: "Angular velocity",
                     unit: "rad/s",
+                    loaded: false,
                 },
             ],
             starts: &[

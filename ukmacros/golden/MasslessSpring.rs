@@ -143,6 +143,7 @@ const _: () = {
                     name: "spring_force",
                     doc: "Force that the springs transmit",
                     unit: "N",
+                    loaded: false,
                 },
             ],
             starts: &[

@@ -140,11 +140,13 @@ const _: () = {
                     name: "angle",
                     doc: "Angle from the downward vertical, counter-clockwise",
                     unit: "rad",
+                    loaded: false,
                 },
                 ukcore::OutputSpec {
                     name: "tension",
                     doc: "Tension of the rod",
                     unit: "N",
+                    loaded: false,
                 },
             ],
             starts: &[

@@ -175,16 +175,19 @@ const _: () = {
                     name: "way",
                     doc: "Way down the slope",
                     unit: "m",
+                    loaded: false,
                 },
                 ukcore::OutputSpec {
                     name: "speed",
                     doc: "Speed down the slope",
                     unit: "m/s",
+                    loaded: false,
                 },
                 ukcore::OutputSpec {
                     name: "friction_force",
                     doc: "Friction, positive down the slope",
                     unit: "N",
+                    loaded: false,
                 },
             ],
             starts: &[

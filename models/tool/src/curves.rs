@@ -114,6 +114,11 @@ impl Curves {
         })
     }
 
+    /// What is drawn, and over what.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = &Column> {
+        self.over.iter().chain(&self.of)
+    }
+
     /// Takes a sample of `mechanism`.
     pub(crate) fn add(&mut self, mechanism: &Prepared, sample: Sample<'_>) {
         let values = |of: &[Column]| columns::values(of, mechanism, sample);

@@ -79,6 +79,15 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let speed = speed.transpose().map_err(Failure::value("--speed"))?;
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| Curves::new(&ready.mechanism, name, asked));
+    let curves = curves.transpose()?;
+    let spec = ready.mechanism.spec();
+    // Of a sweep of coordinates nobody knows the forces that make it.
+    let timed = spec.coordinate_index(name).is_err();
+    let untold = |column: &Column| !timed && column.loaded(&ready.mechanism);
+    let asked = curves.iter().flat_map(Curves::columns);
+    if let Some(column) = asked.into_iter().find(|column| untold(column)) {
+        return Err(Failure::Usage(format!("`{}` {LOADED}", column.name)));
+    }
     let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
     let found = match speed {
@@ -90,7 +99,7 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         let message = format!("no position of the sweep is reached: {}", limits.join("; "));
         return Err(Failure::Failed(message));
     }
-    if let Some(mut curves) = curves.transpose()? {
+    if let Some(mut curves) = curves {
         for posture in &found.postures {
             curves.add(&ready.mechanism, Sample::from(&posture.state));
         }
@@ -101,7 +110,6 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         true => vec![Vec::new(); found.postures.len()],
         false => found.efforts(&on)?,
     };
-    let spec = ready.mechanism.spec();
     let named = efforts[0].iter().flat_map(|e| {
         let coordinate = spec.coordinate_index(e.name);
         let unit = units::effort(coordinate.map_or("", |j| spec.coordinate_unit(j)));
@@ -110,7 +118,11 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         pair.map(|(what, unit)| (format!("{what}({})", e.name), unit))
     });
     let numbers = |of: &Vec<Effort>| of.iter().flat_map(|e| [e.effort, e.power]).collect();
+    let mut columns = columns::of_state(&ready.mechanism);
+    let untold = columns.extract_if(.., |column| untold(column)).collect();
     let found = Found {
+        columns,
+        untold,
         efforts: named.collect(),
         values: efforts.iter().map(numbers).collect(),
         swept: found,
@@ -124,9 +136,16 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
 }
 
+/// What becomes of outputs with reactions.
+const LOADED: &str = "depends on reactions, which are those of the motion that forces make, not of a swept one; prescribe the drive by a \
+                      constraint, and sweep `t`";
+
 /// Postures and limits, and of each posture the efforts and powers asked for.
 struct Found {
     swept: Kinematics,
+    /// What is told of each posture, and outputs that are not.
+    columns: Vec<Column>,
+    untold: Vec<Column>,
     /// The names and units of the efforts and powers.
     efforts: Vec<(String, String)>,
     values: Vec<Vec<f64>>,
@@ -176,8 +195,7 @@ fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usiz
 }
 
 fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()> {
-    let mechanism = &ready.mechanism;
-    let columns = columns::of_state(mechanism);
+    let (mechanism, columns) = (&ready.mechanism, &found.columns);
     let accelerations = mechanism.spec().coords.iter();
     let names = columns.iter().map(|column| column.name.clone());
     let names = names
@@ -185,7 +203,7 @@ fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()
         .chain(found.efforts.iter().map(|(name, _)| name.clone()));
     writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
     for (posture, efforts) in found.swept.postures.iter().zip(&found.values) {
-        let values = columns::values(&columns, mechanism, Sample::from(&posture.state));
+        let values = columns::values(columns, mechanism, Sample::from(&posture.state));
         let values = [&values, &posture.acceleration, efforts]
             .into_iter()
             .flatten();
@@ -228,7 +246,8 @@ fn summary(
     }
     let mut limits = found.swept.limits.iter();
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
-    let columns = columns::of_interest(&ready.mechanism);
+    let mut columns = columns::of_interest(&ready.mechanism);
+    columns.retain(|column| !found.untold.contains(column));
     let efforts = found
         .efforts
         .iter()
@@ -262,6 +281,9 @@ fn summary(
                 "  {label:<wide$}  {low} at {name} = {from}, to {high} at {to}"
             )?;
         }
+    }
+    for column in &found.untold {
+        writeln!(out, "note: `{}` is left out: it {LOADED}", column.name)?;
     }
     if !found.efforts.is_empty() && found.values.iter().flatten().all(|x| *x == 0.0) {
         writeln!(

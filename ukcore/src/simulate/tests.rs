@@ -65,6 +65,7 @@ static SPEC: Spec = Spec {
         unit: "",
         name: "angle",
         doc: "",
+        loaded: false,
     }],
     structure: Structure {
         solve: Solve::none("it is written by hand"),

@@ -44,8 +44,8 @@ pub(super) fn spec(
     let holonomic = number(analysis.dynamics.phi.len());
     let reported = |o: &OutputValue| {
         let (name, docs) = (o.item.text(), o.docs.join(" "));
-        let unit = o.unit.as_deref().unwrap_or("");
-        quote! { ukcore::OutputSpec { name: #name, doc: #docs, unit: #unit } }
+        let (unit, loaded) = (o.unit.as_deref().unwrap_or(""), o.loaded);
+        quote! { ukcore::OutputSpec { name: #name, doc: #docs, unit: #unit, loaded: #loaded } }
     };
     let outputs = system.outputs.iter().map(reported);
     let integrals = system.integrals.iter().map(reported);

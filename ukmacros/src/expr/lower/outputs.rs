@@ -83,6 +83,7 @@ impl<'m> Lowering<'m> {
                     docs: output.docs.clone(),
                     unit: key.measure.as_ref().map(|m| m.unit.to_string()),
                     value,
+                    loaded: self.graph.uses(value).multiplier,
                 });
             }
         });

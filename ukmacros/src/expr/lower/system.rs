@@ -117,6 +117,8 @@ pub(crate) struct OutputValue {
     /// The unit of `value`, if one is declared.
     pub(crate) unit: Option<String>,
     pub(crate) value: Id,
+    /// `value` depends on reactions.
+    pub(crate) loaded: bool,
 }
 
 /// A start: its options, and where coordinates and velocities are there.
