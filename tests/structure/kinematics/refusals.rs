@@ -86,6 +86,21 @@ fn what_does_not_decide_a_motion_is_refused() {
         "do not come from the start to the begin of the sweep: `x` goes no further than",
     );
     ukcore::multibody! {
+        /// A pin on a wheel.
+        pub Wheel {
+            coords { a, x, y }
+            mass { a: 1.0, x: 1.0, y: 1.0 }
+            holonomic { pin: [x, y] = [cos(a), sin(a)] }
+        }
+    }
+    // A hundred thousand steps lead some ten thousand turns far.
+    let around = State::guess::<Wheel>(&[("x", 1.0)]).unwrap();
+    let many = kinematics(Wheel::default(), &around, &[("a", 0.0..1e6)], &[], 1);
+    refused(
+        many,
+        "in as many steps along the positions as a sweep takes; sweep less",
+    );
+    ukcore::multibody! {
         /// A follower on a cam with corners at the multiples of π.
         pub Cam {
             coords { a, x }
@@ -97,7 +112,7 @@ fn what_does_not_decide_a_motion_is_refused() {
     let corner = kinematics(Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
     refused(
         corner,
-        "`drives` do not go on smoothly from here: positions have a corner",
+        "`drives` do not go on smoothly from `a` = 3.141593: positions have a corner",
     );
     let rods = Rods::default();
     let flat = State {

@@ -83,6 +83,8 @@ pub(super) enum End {
     Turned,
     /// There is no smooth way on.
     Stuck,
+    /// The path has taken all steps that it may.
+    Long,
 }
 
 impl Path {
@@ -309,7 +311,10 @@ impl Curve<'_> {
             if rest <= 0.0 {
                 break End::Arrived;
             }
-            if places.len() > STEPS || step < LEAST * size {
+            if places.len() > STEPS {
+                break End::Long;
+            }
+            if step < LEAST * size {
                 break End::Stuck;
             }
             step = step.min(lasts(here, (1.1 * rest).max(FIRST)));

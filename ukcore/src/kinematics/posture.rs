@@ -59,7 +59,7 @@ impl Curve<'_> {
             aside *= 0.5;
         }
         let q = guess.as_slice()[..guess.len() - 1].to_vec();
-        Err(stuck(State::at_rest(self.time_at(s), q)))
+        Err(stuck(self, State::at_rest(self.time_at(s), q)))
     }
 
     /// Whether two means are the same but for small errors, of which that of the nearer one is far smaller.

@@ -13,6 +13,7 @@ use crate::inverse::Posture;
 use crate::mechanism::Prepared;
 use crate::modes::units;
 use crate::nearby::neighbours;
+use crate::numbers::significant;
 use crate::scan::or_one;
 
 /// How fast s changes along the curve, below which a drive stands still: at a dead centre positions are known to the root of rounding.
@@ -22,11 +23,34 @@ const LONG: f64 = 100.0;
 /// A share of a limit that is rounding.
 const SHARE: f64 = 1e-6;
 
-/// There is no smooth way on at `state`.
-pub(super) fn stuck(state: State) -> Error {
-    let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end \
-                  the sweep before it";
+/// There is no smooth way on at `state` of `curve`.
+pub(super) fn stuck(curve: &Curve<'_>, state: State) -> Error {
+    let reason = format!(
+        "do not go on smoothly from {}: positions have a corner, or branches meet that cannot be told from each other; end the sweep \
+         before it",
+        place(curve, &state)
+    );
     state.locate(Error::invalid("drives", reason))
+}
+
+/// The way to `state` on `curve` took as many steps as a sweep may.
+fn long(curve: &Curve<'_>, state: State) -> Error {
+    let reason = format!(
+        "have come to {} in as many steps along the positions as a sweep takes; sweep less, from a start that is nearer",
+        place(curve, &state)
+    );
+    state.locate(Error::invalid("drives", reason))
+}
+
+/// The values of the coordinates that are swept.
+fn place(curve: &Curve<'_>, state: &State) -> String {
+    let names = curve.mech.spec().coords;
+    let moving = curve.fixed.iter().filter(|(_, _, gain)| *gain != 0.0);
+    let values = moving.map(|(j, ..)| format!("`{}` = {}", names[*j], significant(state.q[*j], 7)));
+    match values.collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => "here".to_owned(),
+        values => values,
+    }
 }
 
 /// What is swept.
@@ -158,7 +182,8 @@ impl<'a> Sweep<'a> {
             match path.end {
                 End::Arrived => {}
                 End::Turned => limits.push(self.limit(&curve, path.last())),
-                End::Stuck => return Err(stuck(self.state(&curve, path.last()))),
+                End::Stuck => return Err(stuck(&curve, self.state(&curve, path.last()))),
+                End::Long => return Err(long(&curve, self.state(&curve, path.last()))),
             }
         }
         Ok((postures, limits))
@@ -197,7 +222,8 @@ impl<'a> Sweep<'a> {
         let path = curve.follow(begin, 1.0);
         curve.gauge(&path);
         match path.end {
-            End::Stuck => Err(stuck(self.state(&curve, path.last()))),
+            End::Stuck => Err(stuck(&curve, self.state(&curve, path.last()))),
+            End::Long => Err(long(&curve, self.state(&curve, path.last()))),
             End::Turned => {
                 let limit = self.limit(&curve, path.last());
                 let reason =
