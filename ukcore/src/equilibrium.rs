@@ -69,10 +69,10 @@ const LONGER: f64 = 2.0;
 const FLAT: f64 = 1e-13;
 const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 
-/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time, in the branch of these in which it
-/// is. That is so where all forces have a potential that is declared, but for those that vanish at rest; where others act, as a weight under
-/// `force`, it is one nearby, stable or not. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of displacements is then told by
-/// the stiffness alone.
+/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time, in the branch of these in which it is.
+/// That is so where all forces have a potential that is declared, but for those that vanish at rest; where others act, as a weight under
+/// `force`, it is one nearby, stable or not. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what
+/// becomes of displacements is then told by the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
