@@ -272,20 +272,20 @@ impl<'a> Search<'a> {
         let equations = self.shares.len() * k;
         let mut right = Vec::with_capacity(equations);
         let mut matrix = Vec::with_capacity(equations * k);
+        let mut blur = Vec::with_capacity(equations);
         let roundings = self.rate_roundings();
-        let (weights, blur) = self.weights(&roundings);
-        for (shares, weight) in self.shares.iter().zip(&weights) {
+        for shares in &self.shares {
             for (row, slope) in slopes.iter().enumerate() {
-                right.push(-weight * dot(shares, slope));
+                right.push(-dot(shares, slope));
                 let seconds = &curvatures[row * k..(row + 1) * k];
-                matrix.extend(seconds.iter().map(|second| weight * dot(shares, second)));
+                matrix.extend(seconds.iter().map(|second| dot(shares, second)));
             }
+            blur.extend(roundings.iter().map(|r| rounded(shares, r)));
         }
         let largest = largest(&matrix);
         (largest > 0.0 && largest < f64::INFINITY).then_some(System {
             right,
             matrix,
-            weights,
             blur,
             largest,
         })
@@ -303,30 +303,6 @@ impl<'a> Search<'a> {
         roundings.collect()
     }
 
-    /// What components of f count, from the rounding of what rows say of each direction: those whose own is more than some times that of
-    /// the clearest one as much less, since they are not to drown it; and, of these, that rounding as they count.
-    fn weights(&self, roundings: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
-        let blur = |shares: &Vec<f64>| roundings.iter().map(|r| rounded(shares, r)).collect();
-        let blurs: Vec<Vec<f64>> = self.shares.iter().map(blur).collect();
-        let clearest = blurs.iter().map(|blur| largest(blur));
-        let most = GAP * clearest.fold(f64::INFINITY, f64::min);
-        let weight = |blur: &Vec<f64>| {
-            if largest(blur) > most {
-                most / largest(blur)
-            } else {
-                1.0
-            }
-        };
-        let weights: Vec<f64> = blurs.iter().map(weight).collect();
-        let pairs = blurs.iter().zip(&weights);
-        let blurred = pairs.flat_map(|(blur, weight)| {
-            let part = if *weight < 1.0 { *weight } else { 0.0 };
-            blur.iter().map(move |x| part * x)
-        });
-        let blurred = blurred.collect();
-        (weights, blurred)
-    }
-
     /// What is found where a step of a system with these residuals has led to, if it is the last one; `None` if there is nothing.
     fn verdict(
         &mut self,
@@ -338,19 +314,19 @@ impl<'a> Search<'a> {
         let left = system.left(step);
         let parts = system.right.chunks_exact(k);
         let parts = parts.zip(system.matrix.chunks_exact(k * k));
-        let parts = parts.zip(system.blur.chunks_exact(k).zip(&system.weights));
+        let parts = parts.zip(system.blur.chunks_exact(k));
         let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
-        for (shares, ((right, matrix), (blur, weight))) in self.shares.iter().zip(parts) {
+        for (shares, ((right, matrix), blur)) in self.shares.iter().zip(parts) {
             // One alone is critical where the search has come to.
             let [differs, blurred] = match self.shares.len() {
                 1 => [0.0; 2],
                 _ => least(matrix, [right, blur], largest),
             };
-            let e = dot(shares, phi) + differs / weight;
+            let e = dot(shares, phi) + differs;
             let noise = rounded(shares, rounding) + largest * (f64::EPSILON * self.scale).powi(2);
             last &= largest * size * size <= noise;
             agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
-            let noise = noise + blurred / weight;
+            let noise = noise + blurred;
             if e.abs() > ZERO * noise {
                 open = open.max(e.abs());
                 doubt |= e.abs() <= GAP * noise;
@@ -489,9 +465,7 @@ struct System {
     right: Vec<f64>,
     /// Row by row.
     matrix: Vec<f64>,
-    /// What each component of f counts, as it is in the equations.
-    weights: Vec<f64>,
-    /// The rounding of each right-hand side of components that it blurs: of rows that all but vanish it is as much as they say.
+    /// The rounding of each right-hand side: of rows that all but vanish it is as much as they say.
     blur: Vec<f64>,
     /// The largest of its numbers.
     largest: f64,
