@@ -4,6 +4,7 @@
 mod axle;
 mod bennett;
 mod door;
+mod hinged;
 mod kaleidocycle;
 mod mechanisms;
 mod mill;

@@ -152,7 +152,11 @@ fn meant(error: &clap::Error, whole: &clap::Command) -> Option<String> {
     };
     if let Some(setting) = string(ContextKind::InvalidArg) {
         let bare = error.kind() == ErrorKind::UnknownArgument && !setting.starts_with('-');
-        return (bare && setting.contains('='))
+        let sets =
+            |command: &clap::Command| command.get_arguments().any(|a| a.get_long() == Some("set"));
+        let asked = std::env::args().nth(1)?;
+        let sets = whole.find_subcommand(asked).is_some_and(sets);
+        return (bare && sets && setting.contains('='))
             .then(|| format!("`--set {setting}` sets a parameter or an option of the start"));
     }
     let asked = string(ContextKind::InvalidSubcommand)?;

@@ -162,7 +162,10 @@ fn tell(failed: &[(String, String)], all: usize, out: &Path) -> Result<(), Failu
 
 /// The file that rows are appended to: the table itself or, as nothing is appended to a Parquet file, one beside it.
 fn rows(out: &Path) -> Result<PathBuf, Failure> {
-    let parquet = out.extension().is_some_and(|ending| ending == "parquet");
+    let parquet = out
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
+    output::promised("--out", out, if parquet { "parquet" } else { "csv" })?;
     if parquet && !cfg!(feature = "parquet") {
         return Err(Failure::Usage(format!(
             "{} would be Parquet, which this program is built without: name a `.csv`, or build it with the feature `parquet` of `uktool`",
