@@ -384,7 +384,7 @@ macro_rules! rough_arms {
     ($motor:ident, $free:ident, $section:ident, $friction:expr) => {
         ukcore::multibody! {
             pub $motor {
-                params { m = 1.0, l = 0.4, j = 0.02, w = 3.0, f = 0.5, mu = 0.3, r = 0.05, g = 9.81 }
+                params { m = 1.0, l = 0.4, j = 0.02, w = 3.0, g = 9.81 }
                 bodies { planar arm { mass: m, inertia: j, centre: [l, 0] } }
                 gravity { [0, -g] }
                 holonomic { axle: pin(ground.at([0, 0]), arm.at([0, 0])), motor: turn(ground, arm) = w * t }
@@ -394,7 +394,7 @@ macro_rules! rough_arms {
         }
         ukcore::multibody! {
             pub $free {
-                params { m = 1.0, l = 0.4, j = 0.02, f = 0.5, mu = 0.3, r = 0.05, g = 9.81 }
+                params { m = 1.0, l = 0.4, j = 0.02, g = 9.81 }
                 bodies { planar arm { mass: m, inertia: j, centre: [l, 0] } }
                 gravity { [0, -g] }
                 holonomic { axle: pin(ground.at([0, 0]), arm.at([0, 0])) }
@@ -405,13 +405,13 @@ macro_rules! rough_arms {
     };
 }
 
-rough_arms!(Even, EvenFree, nonideal, friction(arm.omega, f));
-rough_arms!(Given, GivenFree, forces, friction(arm.omega, f));
+rough_arms!(Even, EvenFree, nonideal, friction(arm.omega, 0.5));
+rough_arms!(Given, GivenFree, forces, friction(arm.omega, 0.5));
 rough_arms!(
     Loaded,
     LoadedFree,
     nonideal,
-    friction(arm.omega, mu * r * norm(reaction(axle)))
+    friction(arm.omega, 0.3 * 0.05 * norm(reaction(axle)))
 );
 
 /// The torque of a motor that turns such an arm at 3 rad/s, and the load of the axle there.
