@@ -105,11 +105,12 @@ impl Inverse {
         let speeds = &acting * DVector::from_column_slice(v);
         measure(&mut acting, &units);
         // What constraints do in all: they bear what they keep c from doing, too.
-        let mut terms = Evaluated::new(spec.n(), spec.m());
-        terms.dynamics(mech, *t, q, v);
-        let force = DVector::from_vec(solution.ideal_force)
-            + DVector::from_vec(solution.nonideal_force)
-            - DVector::from_vec(terms.nonideal);
+        let mut force = DVector::from_vec(solution.ideal_force);
+        if spec.structure.nonideal {
+            let mut terms = Evaluated::new(spec.n(), spec.m());
+            terms.dynamics(mech, *t, q, v);
+            force += DVector::from_vec(solution.nonideal_force) - DVector::from_vec(terms.nonideal);
+        }
         let force = force.component_mul(&units);
         let efforts = least(&acting, &free, &free.tr_mul(&force));
         let all = driven.iter().zip(efforts.iter()).zip(speeds.iter());

@@ -9,7 +9,7 @@ use crate::summary::joule;
 use crate::units::turn;
 
 /// A quantity of a mechanism: its name in tables, its unit (nothing where none is known), and where its numbers come from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(crate) struct Column {
     pub(crate) name: String,
     pub(crate) unit: String,
@@ -35,11 +35,6 @@ impl Column {
             Source::Output(_) => turn(&self.unit),
             _ => None,
         }
-    }
-
-    /// Whether it depends on reactions, and so on the forces that make the motion.
-    pub(crate) fn loaded(&self, mechanism: &Prepared) -> bool {
-        matches!(self.source, Source::Output(k) if mechanism.spec().outputs[k].loaded)
     }
 
     /// The name of the column, with the unit behind where this is known.

@@ -8,7 +8,7 @@ use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
 use ukcore::studies::{Effort, Kinematics};
-use ukcore::{State, kinematics as swept};
+use ukcore::{Error, State, kinematics as swept};
 
 use crate::columns::{self, Column, labelled};
 use crate::command;
@@ -80,14 +80,6 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     let curves = args.plot.as_deref();
     let curves = curves.map(|asked| Curves::new(&ready.mechanism, name, asked));
     let curves = curves.transpose()?;
-    let spec = ready.mechanism.spec();
-    // Of a sweep of coordinates nobody knows the forces that make it.
-    let timed = spec.coordinate_index(name).is_err();
-    let untold = |column: &Column| !timed && column.loaded(&ready.mechanism);
-    let asked = curves.iter().flat_map(Curves::columns);
-    if let Some(column) = asked.into_iter().find(|column| untold(column)) {
-        return Err(Failure::Usage(format!("`{}` {LOADED}", column.name)));
-    }
     let hold = args.scene.start.place.held();
     let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
     let found = match speed {
@@ -98,6 +90,15 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         let limits: Vec<String> = found.limits.iter().map(ToString::to_string).collect();
         let message = format!("no position of the sweep is reached: {}", limits.join("; "));
         return Err(Failure::Failed(message));
+    }
+    let spec = ready.mechanism.spec();
+    // Of some outputs nothing is known but why.
+    let untold = spec.outputs.iter();
+    let untold = untold.filter_map(|o| found.output(o.name).err().map(|error| (o.name, error)));
+    let untold: Vec<(&str, Error)> = untold.collect();
+    let is_untold = |column: &Column| untold.iter().position(|(name, _)| column.name == *name);
+    if let Some(k) = curves.iter().flat_map(Curves::columns).find_map(is_untold) {
+        return Err(untold[k].1.clone().into());
     }
     if let Some(mut curves) = curves {
         for posture in &found.postures {
@@ -119,10 +120,10 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     });
     let numbers = |of: &Vec<Effort>| of.iter().flat_map(|e| [e.effort, e.power]).collect();
     let mut columns = columns::of_state(&ready.mechanism);
-    let untold = columns.extract_if(.., |column| untold(column)).collect();
+    columns.retain(|column| is_untold(column).is_none());
     let found = Found {
         columns,
-        untold,
+        untold: untold.iter().map(|(_, error)| error.to_string()).collect(),
         efforts: named.collect(),
         values: efforts.iter().map(numbers).collect(),
         swept: found,
@@ -136,16 +137,12 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
     output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
 }
 
-/// What becomes of outputs with reactions.
-const LOADED: &str = "depends on reactions, which are those of the motion that forces make, not of a swept one; prescribe the drive by a \
-                      constraint, and sweep `t`";
-
 /// Postures and limits, and of each posture the efforts and powers asked for.
 struct Found {
     swept: Kinematics,
-    /// What is told of each posture, and outputs that are not.
+    /// What is told of each posture, and why other outputs are not.
     columns: Vec<Column>,
-    untold: Vec<Column>,
+    untold: Vec<String>,
     /// The names and units of the efforts and powers.
     efforts: Vec<(String, String)>,
     values: Vec<Vec<f64>>,
@@ -246,8 +243,10 @@ fn summary(
     }
     let mut limits = found.swept.limits.iter();
     limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
+    let spec = ready.mechanism.spec();
     let mut columns = columns::of_interest(&ready.mechanism);
-    columns.retain(|column| !found.untold.contains(column));
+    let told = |column: &Column| found.columns.iter().any(|told| told.name == column.name);
+    columns.retain(|column| told(column) || spec.output_index(&column.name).is_err());
     let efforts = found
         .efforts
         .iter()
@@ -282,8 +281,8 @@ fn summary(
             )?;
         }
     }
-    for column in &found.untold {
-        writeln!(out, "note: `{}` is left out: it {LOADED}", column.name)?;
+    for reason in &found.untold {
+        writeln!(out, "note: left out, as {reason}")?;
     }
     if !found.efforts.is_empty() && found.values.iter().flatten().all(|x| *x == 0.0) {
         writeln!(

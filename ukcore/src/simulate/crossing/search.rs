@@ -272,16 +272,26 @@ impl<'a> Search<'a> {
         let equations = self.shares.len() * k;
         let mut right = Vec::with_capacity(equations);
         let mut matrix = Vec::with_capacity(equations * k);
-        let mut blur = Vec::with_capacity(equations);
-        let roundings = self.rate_roundings();
         for shares in &self.shares {
             for (row, slope) in slopes.iter().enumerate() {
                 right.push(-dot(shares, slope));
                 let seconds = &curvatures[row * k..(row + 1) * k];
                 matrix.extend(seconds.iter().map(|second| dot(shares, second)));
             }
-            blur.extend(roundings.iter().map(|r| rounded(shares, r)));
         }
+        // One component alone is not compared with others.
+        let blur = match self.shares.len() {
+            1 => vec![0.0; k],
+            _ => {
+                let roundings = self.rate_roundings();
+                let each = self
+                    .shares
+                    .iter()
+                    .flat_map(|shares| roundings.iter().map(move |r| (shares, r)));
+                each.map(|(shares, rounding)| rounded(shares, rounding))
+                    .collect()
+            }
+        };
         let largest = largest(&matrix);
         (largest > 0.0 && largest < f64::INFINITY).then_some(System {
             right,
