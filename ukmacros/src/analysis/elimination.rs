@@ -145,6 +145,7 @@ pub(crate) struct Coefficient {
 
 /// A difference below this share of what it is of has lost digits: it is no pivot. It is the root of [`SAFE_SHARE`].
 const CLEAR: f64 = 1.0 / 32.0;
+const _: () = assert!(CLEAR * CLEAR == SAFE_SHARE);
 
 impl Coefficient {
     const ZERO: Coefficient = Coefficient {
