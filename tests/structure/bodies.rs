@@ -87,6 +87,85 @@ fn power_of_forces_is_the_rate_of_the_energy() {
 }
 
 ukcore::multibody! {
+    /// Planar bodies pushed at places that move in them: where one touches something, and where a rope leaves a drum.
+    Touched {
+        bodies { planar a { mass: 1, inertia: 0.5, centre: [0.1, 0] } planar drum { mass: 2, inertia: 0.7, centre: [0, 0.3] } }
+        forces {
+            force(a.at(transpose(a.axes) * [0.2, -0.3 + 0.1 * drum.x]), [1.5, t])
+            force(ground.at([0, 4]), drum.at(transpose(drum.axes) * [0.25, 0]), -2.0)
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// The same by moments.
+    TouchedByMoments {
+        bodies { planar a { mass: 1, inertia: 0.5, centre: [0.1, 0] } planar drum { mass: 2, inertia: 0.7, centre: [0, 0.3] } }
+        let rope = -2 * normalise(drum.at([0, 0]) + [0.25, -4]);
+        forces {
+            force(a.at([0, 0]), [1.5, t]) torque(a, cross([0.2, -0.3 + 0.1 * drum.x], [1.5, t]))
+            force(drum.at([0, 0]), rope) torque(drum, cross([0.25, 0], rope))
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A spatial body and one that hangs on it, pushed at places that move in them.
+    Rolled {
+        bodies {
+            spatial a { mass: 1, inertia: [1, 1.2, 1.4], centre: [0.1, 0, 0] }
+            spatial b { mass: 2, inertia: [2, 2.2, 2.4, 0.1, -0.2, 0.3], centre: [0, 0.2, 0] }
+        }
+        tree { h: hinge(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]), [1, 2, -2]) }
+        forces {
+            force(a.at(transpose(a.axes) * [0, 0, -0.3]), [1.5, t, 0.4])
+            force(b.at(transpose(b.axes) * [0, 0.1, -0.2]), [-0.3, 0.2, 0.7])
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// The same by moments.
+    RolledByMoments {
+        bodies {
+            spatial a { mass: 1, inertia: [1, 1.2, 1.4], centre: [0.1, 0, 0] }
+            spatial b { mass: 2, inertia: [2, 2.2, 2.4, 0.1, -0.2, 0.3], centre: [0, 0.2, 0] }
+        }
+        tree { h: hinge(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]), [1, 2, -2]) }
+        forces {
+            force(a.at([0, 0, 0]), [1.5, t, 0.4]) torque(a, cross([0, 0, -0.3], [1.5, t, 0.4]))
+            force(b.at([0, 0, 0]), [-0.3, 0.2, 0.7]) torque(b, cross([0, 0.1, -0.2], [-0.3, 0.2, 0.7]))
+        }
+    }
+}
+
+#[test]
+fn forces_act_on_the_point_of_the_body_that_is_there() {
+    fn same<M: Mechanism, N: Mechanism>(state: &State) {
+        let [found, expected] =
+            [solved::<M>(state), solved::<N>(state)].map(|solution| solution.acceleration);
+        let name = M::SPEC.name;
+        let pairs = found.iter().zip(&expected);
+        pairs.for_each(|(found, expected)| assert_close(name, *found, *expected, 1e-12));
+    }
+    let mut random = Random::new(13);
+    for _ in 0..20 {
+        same::<Touched, TouchedByMoments>(&State {
+            t: random.signed(),
+            q: random.vector(6),
+            v: random.vector(6),
+        });
+        let whole = random_state(&mut random, 1);
+        let state = State {
+            q: [whole.q, random.vector(1)].concat(),
+            v: [whole.v, random.vector(1)].concat(),
+            ..whole
+        };
+        same::<Rolled, RolledByMoments>(&state);
+    }
+}
+
+ukcore::multibody! {
     /// A body whose inertia its parameters decide.
     pub Weighed {
         params { m = 1.0, principal[3] = [1.0, 1.2, 1.4], tensor[3][3] = [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 4.0]] }

@@ -61,6 +61,8 @@ pub(super) struct Point {
     pub(super) body: Rc<Frame>,
     /// The place of the point, in axes of the ground.
     pub(super) place: Value,
+    /// Its place in the body's frame.
+    pub(super) within: Value,
 }
 
 /// A body as declared, with the loop variables around it.
@@ -78,8 +80,14 @@ impl fmt::Display for Frame {
 }
 
 impl Point {
+    /// A point that is there whatever moves: its place in the body does not matter.
     pub(super) fn of(body: Rc<Frame>, place: Value) -> Value {
-        Value::Point(Rc::new(Point { body, place }))
+        let within = Value::vector(Vec::new());
+        Value::Point(Rc::new(Point {
+            body,
+            place,
+            within,
+        }))
     }
 }
 
@@ -428,10 +436,11 @@ impl<'m> Lowering<'m> {
             );
         }
         let value = match name == "at" {
-            true => {
-                let place = frame.at(&value, &mut self.graph);
-                Point::of(frame, place)
-            }
+            true => Value::Point(Rc::new(Point {
+                place: frame.at(&value, &mut self.graph),
+                body: frame,
+                within: value,
+            })),
             false => frame.along(&value, &mut self.graph),
         };
         self.allowed_value(value, e.loc, env)
@@ -483,6 +492,9 @@ impl<'m> Lowering<'m> {
         let mut in_space = false;
         let frame = match value {
             Some(Value::Body(frame)) => frame,
+            Some(Value::Point(point)) if self.written && name == "within" => {
+                return point.within.clone();
+            }
             Some(Value::Point(point)) => {
                 in_space = point.place.shape() == [3];
                 point.body.clone()

@@ -54,8 +54,13 @@ enum Meaning {
     ),
     /// A term of V.
     Energy(&'static str),
-    /// What has this velocity is pushed by this force.
-    Push(&'static str, &'static str),
+    /// What has this velocity is pushed by this force; and what of the velocity points have by moving in their bodies, where the force acts
+    /// on these.
+    Push(
+        &'static str,
+        &'static str,
+        &'static [(&'static str, &'static str)],
+    ),
 }
 
 /// An argument of a part.
@@ -144,12 +149,16 @@ parts! {
     ], "x y", &["[1, 0, 0]", "[0, 1, 0]"]);
     "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
-    "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
-    "turning_damper" Both (a: Body, b: Body, c: Number["N m s"]) Push("b.omega - a.omega", "-c * (b.omega - a.omega)");
-    "force" Both (p: Point, f: Force["N"]) Push("dot(p)", "f");
-    "force" Both (p: Point, q: Point, f: Number["N"]) Push("dot(norm(q - p))", "f");
-    "torque" Both (b: Body, m: Moment["N m"]) Push("b.omega", "m");
-    "torque" Both (a: Body, b: Body, m: Moment["N m"]) Push("b.omega - a.omega", "m");
+    "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))", &[]);
+    "turning_damper" Both (a: Body, b: Body, c: Number["N m s"]) Push("b.omega - a.omega", "-c * (b.omega - a.omega)", &[]);
+    "force" Both (p: Point, f: Force["N"]) Push("dot(p)", "f", &[("p", "p.along(dot(p.within))")]);
+    "force" Both (p: Point, q: Point, f: Number["N"])
+        Push("dot(norm(q - p))", "f", &[
+            ("p", "-inner(normalise(q - p), p.along(dot(p.within)))"),
+            ("q", "inner(normalise(q - p), q.along(dot(q.within)))"),
+        ]);
+    "torque" Both (b: Body, m: Moment["N m"]) Push("b.omega", "m", &[]);
+    "torque" Both (a: Body, b: Body, m: Moment["N m"]) Push("b.omega - a.omega", "m", &[]);
 }
 
 /// Parts of one home, and what does the same in the other.
@@ -421,7 +430,7 @@ impl<'m> Lowering<'m> {
                 out.potential
                     .extend(value.entries().iter().map(|id| (1.0, *id)));
             }
-            Meaning::Push(velocity, force) => {
+            Meaning::Push(velocity, force, slips) => {
                 let (velocity, force) = (
                     self.written(velocity, e.loc, &inner),
                     self.written(force, e.loc, &inner),
@@ -431,10 +440,72 @@ impl<'m> Lowering<'m> {
                 }
                 let last = args.last().map_or(e.loc, |a| a.loc);
                 let force = self.of_shape(&force, velocity.shape(), last);
-                for (v, f) in velocity.entries().iter().zip(force.unwrap_or_default()) {
-                    self.push(*v, f, out);
+                let force = force.unwrap_or_default();
+                for (v, f) in velocity.entries().iter().zip(&force) {
+                    self.push(*v, *f, out);
+                }
+                for (point, slip) in slips {
+                    if self.moves_within(point, &inner) {
+                        let slip = self.written(slip, e.loc, &inner);
+                        self.hold(slip.entries(), &force, (args, &inner), out);
+                    }
                 }
             }
+        }
+    }
+
+    /// Whether the place of the point `name` in its body depends on coordinates.
+    fn moves_within(&self, name: &str, inner: &Env<'m>) -> bool {
+        let mut points = inner.args.iter().filter(|(arg, _)| arg == name);
+        points.any(|(_, value)| match value {
+            Value::Point(point) => {
+                let mut entries = point.within.entries().iter();
+                entries.any(|id| self.graph.uses(*id).coord)
+            }
+            _ => false,
+        })
+    }
+
+    /// Takes from what a force does the part that it would do on points that move in their bodies, as a point of contact does where the
+    /// body turns: it acts on the body. Coordinates that are no body's may be of something that moves there, on which it acts, or not.
+    fn hold(
+        &mut self,
+        slip: &[Id],
+        force: &[Id],
+        (args, inner): (&[Expr], &Env<'m>),
+        out: &mut Acting,
+    ) {
+        let mut apart = Acting::default();
+        for (v, f) in slip.iter().zip(force) {
+            let f = self.graph.neg(*f);
+            self.push(*v, f, &mut apart);
+        }
+        // Between two points it is their distance that the force works on.
+        let single = match &inner.args[0].1 {
+            Value::Point(point) if args.len() == 2 => Some(&point.body),
+            _ => None,
+        };
+        for (i, terms) in apart.force {
+            let element = &self.model.coord_elements[i];
+            let (name, own) = (&element.name, element.family < self.model.plain);
+            let message = match single {
+                Some(body) if body.moving.is_none() => format!(
+                    "a force on the ground moves nothing; one on what `{name}` moves is written `force {{ {name}: … }}`, and one on a body \
+                     as `force(body.at(p), F)`"
+                ),
+                Some(body) if own => format!(
+                    "where this point is in `{body}` depends on `{name}`, and whether the force acts on `{body}` there or on what moves \
+                     along with `{name}` is not told; on `{body}` it is `force({body}.at(p), F)` with a fixed p and the moment of the way \
+                     from there, `torque({body}, cross(r, F))`; on the other that and `force {{ {name}: … }}`"
+                ),
+                None if own => continue,
+                _ => {
+                    out.force.entry(i).or_default().extend(terms);
+                    continue;
+                }
+            };
+            self.error(args[0].loc, message);
+            return;
         }
     }
 
