@@ -359,3 +359,71 @@ fn a_softened_puck_does_not_run_off() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A bristle of a Dahl model on a spring's end: its deflection z follows the way, whatever the speed, and tends to ±1/k.
+    Bristle {
+        params { k = 100.0 }
+        coords { x, z }
+        mass { x: 1 }
+        force { x: -9 * x }
+        nonholonomic { bends: dot(z) = dot(x) - k * abs(dot(x)) * z }
+    }
+}
+
+ukcore::multibody! {
+    /// A constraint that jumps where the velocity turns, by little.
+    Jerked {
+        coords { x, z }
+        mass { x: 1, z: 1 }
+        force { x: -9 * x }
+        nonholonomic { follows: dot(z) = 0.01 * sign(dot(x)) }
+    }
+}
+
+/// A step ends beside the zero of |ẋ| by what its tolerance allows; beside it constraints ask for other velocities in the other branch, and
+/// at it for the same.
+#[test]
+fn constraints_with_the_size_of_a_velocity_go_on_where_it_turns() {
+    // x = sin 3t; dz/dx is 1 − kz on the way up, 1 + kz on the way down.
+    let (k, t_end) = (100.0, 10.0_f64);
+    let (mut x, mut z, mut up) = (0.0, 0.0, true);
+    let turns = (3.0 * t_end / std::f64::consts::PI + 0.5).floor() as usize;
+    for end in (0..turns).map(|_| None).chain([Some((3.0 * t_end).sin())]) {
+        let sign = if up { 1.0 } else { -1.0 };
+        let to = end.unwrap_or(sign);
+        z = sign / k + (z - sign / k) * (-k * sign * (to - x)).exp();
+        (x, up) = (to, !up);
+    }
+    let methods = [Method::Dop853, Method::Dopri5, Method::Radau5];
+    for (method, power) in methods
+        .into_iter()
+        .flat_map(|m| (4..13).map(move |p| (m, p)))
+    {
+        let tolerance = 10.0_f64.powi(-power);
+        let start = State {
+            t: 0.0,
+            q: vec![0.0; 2],
+            v: vec![3.0; 2],
+        };
+        let run = Simulation::new(Bristle::default()).method(method);
+        let run = run.tolerance(tolerance).start(start.clone()).until(t_end);
+        let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
+        let end = run.last().expect("an end");
+        let off = (end.q[0] - x).abs().max((end.q[1] - z).abs());
+        assert!(
+            off < 1e2 * tolerance + 1e-11,
+            "{method}, {tolerance:e}: {off:e}"
+        );
+    }
+    let start = State {
+        t: 0.0,
+        q: vec![0.0; 2],
+        v: vec![3.0, 0.01],
+    };
+    for method in methods {
+        let run = Simulation::new(Jerked::default()).method(method);
+        let run = run.tolerance(1e-6).start(start.clone()).until(t_end);
+        assert!(run.is_err(), "{method}: a jump of a velocity");
+    }
+}

@@ -63,6 +63,8 @@ struct Driver<'p> {
     gap: Option<[f64; 2]>,
     /// Time and state up to which the steps are known already.
     shown: Option<(f64, Vec<f64>)>,
+    /// The switches that have taken other branches where the run stands.
+    turned: Vec<usize>,
     /// How often the run has gone back from one place in a row, each time in other branches.
     relaunches: usize,
     /// Whether it has been asked if the start is to blame for first steps that come to nothing.
@@ -142,6 +144,7 @@ impl<'p> Driver<'p> {
             cut: None,
             passage: Passage::default(),
             shown: None,
+            turned: Vec::new(),
             relaunches: 0,
             launched: false,
             reached: None,
@@ -227,6 +230,7 @@ impl Driver<'_> {
         self.measure(SELDOM);
         self.uncover(h);
         (self.passage.plans, self.passage.astray) = (0, false);
+        self.turned.clear();
         let next = self.scheme.accepted(h, error).abs();
         self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
@@ -342,6 +346,13 @@ impl Driver<'_> {
         if projection_norm(excess.into_iter(), states, tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
+        if self.enter() {
+            return Err(Refusal::Unplanned);
+        }
+        let Equations {
+            problem, course, ..
+        } = &mut self.equations;
+        let raw = Sample::of(t, &self.raw);
         // Asked close to the place alone, so that the error has its time.
         let jump = match course.is_close(t) {
             true => problem.jump(raw, course.now.t),

@@ -163,6 +163,8 @@ impl Problem for Run<'_> {
 
     fn go_on_from(&mut self, t: f64, at_start: bool) {
         self.solver.take_weakest();
+        // What was found of rows at a singular position holds there alone.
+        self.solver.dropping.forget();
         self.nearest = None;
         self.rows.go_on_from(t, at_start);
     }

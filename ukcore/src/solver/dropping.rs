@@ -105,8 +105,8 @@ impl Dropping {
         self.accepted = Accepted([a, b, c, d, e, f]);
     }
 
-    /// Parameters have changed.
-    pub(super) fn forget(&mut self) {
+    /// Parameters have changed, or the place where it was decided was a singular position, which rows follow from the others at alone.
+    pub(crate) fn forget(&mut self) {
         (self.rows, self.even, self.accepted) = (None, false, Accepted::WHOLE);
     }
 

@@ -192,7 +192,7 @@ impl Driver<'_> {
     }
 
     /// Puts the run to this place and state.
-    fn stand(&mut self, place: Place, y: &[f64]) {
+    pub(super) fn stand(&mut self, place: Place, y: &[f64]) {
         self.equations.course.now = place;
         self.scheme.end_mut().copy_from_slice(y);
         self.scheme.advance();

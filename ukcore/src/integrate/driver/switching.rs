@@ -3,11 +3,18 @@
 use super::{Driver, Refusal};
 use crate::error::Error;
 use crate::integrate::course::Trial;
+use crate::integrate::sample::Sample;
+use crate::integrate::sums::projection_norm;
 use crate::integrate::switches::{Leaving, Seen, Stuck};
 use crate::mechanism::Branch;
+use crate::scan::axpy;
 
 /// A step with less than this share of the error granted may be as long as it is for lack of any force: switches are looked at all along.
 const FREE: f64 = 1e-4;
+
+/// Constraints that ask for other velocities beside the zero of a switch than in the branch before, and by no more than this share of that
+/// at the zero, do so for being beside it.
+const CONTINUOUS: f64 = 0.1;
 
 /// A step onto the zero of a switch.
 pub(super) struct Goal {
@@ -111,6 +118,7 @@ impl Driver<'_> {
         };
         let turned = self.equations.turn(&switches, self.scheme.start());
         if turned.map_err(|stuck| self.stuck(stuck))? {
+            self.turned.clone_from(&switches);
             return self.begin_at(&switches);
         }
         // The motion goes into its branch, and leaves it before the step's first part ends.
@@ -158,8 +166,57 @@ impl Driver<'_> {
         let launched = self.cut.take().is_some() && self.launch()?;
         if landed && !launched {
             self.begin_at(&targets)?;
+            self.turned = targets;
         }
         Ok(landed)
+    }
+
+    /// Moves velocities onto the constraints of the branches that switches have taken where the run stands, which is beside their zeros by
+    /// what its tolerance allows. Returns whether it did: not where constraints jump at the zeros themselves, and once at most.
+    pub(super) fn enter(&mut self) -> bool {
+        let switches = std::mem::take(&mut self.turned);
+        let (now, y) = (self.equations.course.now, self.scheme.start().to_vec());
+        if switches.is_empty() || self.shown.is_some() {
+            return false;
+        }
+        // It has come by the accelerations of the branches before.
+        let (n, at) = (y.len() / 2, Sample::of(now.t, &y));
+        let mut acceleration = vec![0.0; n];
+        self.equations.flip(&switches);
+        let before = (self.equations.problem).acceleration(at, &mut acceleration);
+        self.equations.flip(&switches);
+        self.equations.settle(&y);
+        if before.is_err() {
+            return false;
+        }
+        let problem = &mut *self.equations.problem;
+        let mut values = vec![0.0; problem.switches()];
+        let mut rates = values.clone();
+        problem.switching(at, &mut values);
+        problem.switching_rate(at, &acceleration, &mut rates);
+        let late = switches.iter().map(|k| values[*k] / rates[*k]);
+        let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let Some(late) = late.filter(|late| late.is_finite()) else {
+            return false;
+        };
+        let mut zero = y.clone();
+        axpy(-late, &y[n..], &mut zero[..n]);
+        axpy(-late, &acceleration, &mut zero[n..]);
+        let tolerance = &self.settings.tolerance;
+        let mut entered = |t: f64, y: &[f64]| {
+            let mut entered = y.to_vec();
+            let (q, v) = entered.split_at_mut(n);
+            problem.project(t, q, v).ok()?;
+            let changes = entered.iter().zip(y).map(|(new, old)| new - old);
+            Some((projection_norm(changes, [y, y], tolerance), entered))
+        };
+        match (entered(now.t, &y), entered(now.t - late, &zero)) {
+            (Some((here, state)), Some((there, _))) if there <= CONTINUOUS * here => {
+                self.stand(now, &state);
+                self.begin().is_ok()
+            }
+            _ => false,
+        }
     }
 
     fn stuck(&mut self, Stuck(switches): Stuck) -> Error {
