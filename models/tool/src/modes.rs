@@ -35,15 +35,31 @@ const STILL: f64 = 1e-6;
 pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let failed = |error: Error| Failure::Failed(told(&error));
-    let (state, stability) = if args.steady {
+    let held = args.scene.start.place.held();
+    let rest = |held: &[&str]| equilibrium(&ready.mechanism, &ready.state, held);
+    let (state, rests) = if args.steady {
         (ready.state.clone(), None)
     } else {
-        let found = equilibrium(&ready.mechanism, &ready.state, &[]).map_err(failed)?;
-        (found.state, Some(found.stability))
+        match rest(&[]) {
+            // What was held to assemble the start is held for it alone, but where nothing rests without.
+            Err(_) if !held.is_empty() => {
+                let held_there = format!("with `{}` held", held.join("`, `"));
+                (rest(&held).map_err(failed)?.state, Some(held_there))
+            }
+            found => {
+                let found = found.map_err(failed)?;
+                let stability = match found.stability {
+                    Stability::Stable => "stable",
+                    Stability::Neutral => "neutral (some displacements cost nothing)",
+                    Stability::Unstable => "not stable",
+                };
+                (found.state, Some(stability.to_owned()))
+            }
+        }
     };
     let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
     output::to_stdout(|out| {
-        place(out, &ready, &state, stability)?;
+        place(out, &ready, &state, rests)?;
         limits(out, &ready, &state)?;
         // A displacement that costs nothing has an eigenvalue of 0 twice, with one shape.
         let again = |k: usize| {
@@ -66,15 +82,10 @@ fn place(
     out: &mut dyn Write,
     ready: &Ready<'_>,
     state: &State,
-    stability: Option<Stability>,
+    rests: Option<String>,
 ) -> io::Result<()> {
     let id = &ready.entry.id;
-    let word = stability.map(|stability| match stability {
-        Stability::Stable => "stable",
-        Stability::Neutral => "neutral (some displacements cost nothing)",
-        Stability::Unstable => "not stable",
-    });
-    match word {
+    match rests {
         Some(word) => writeln!(out, "{id} from `{}` rests, {word}, at", ready.start)?,
         None => {
             let rests = state.v.iter().all(|v| *v == 0.0);
