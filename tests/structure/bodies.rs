@@ -93,6 +93,7 @@ ukcore::multibody! {
         forces {
             force(a.at(transpose(a.axes) * [0.2, -0.3 + 0.1 * drum.x]), [1.5, t])
             force(ground.at([0, 4]), drum.at(transpose(drum.axes) * [0.25, 0]), -2.0)
+            damper(ground.at([0, -4]), drum.at(transpose(drum.axes) * [-0.2, 0]), 0.3)
         }
     }
 }
@@ -102,9 +103,12 @@ ukcore::multibody! {
     TouchedByMoments {
         bodies { planar a { mass: 1, inertia: 0.5, centre: [0.1, 0] } planar drum { mass: 2, inertia: 0.7, centre: [0, 0.3] } }
         let rope = -2 * normalise(drum.at([0, 0]) + [0.25, -4]);
+        let way = drum.at([0, 0]) + [-0.2, 4];
+        let drag = -0.3 * dot(norm(way)) * normalise(way);
         forces {
             force(a.at([0, 0]), [1.5, t]) torque(a, cross([0.2, -0.3 + 0.1 * drum.x], [1.5, t]))
             force(drum.at([0, 0]), rope) torque(drum, cross([0.25, 0], rope))
+            force(drum.at([0, 0]), drag) torque(drum, cross([-0.2, 0], drag))
         }
     }
 }

@@ -318,6 +318,8 @@ impl Simulation {
             t_end,
             weakest: 1.0,
             nearest: None,
+            stands: start.t,
+            provisional: false,
             rows: RowWatch::new(self.method, settings.tolerance.relative),
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);

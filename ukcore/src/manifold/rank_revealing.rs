@@ -25,6 +25,9 @@ const NEARBY: usize = 3;
 const CONTRACTS: f64 = 0.25;
 const ROUNDED_STEP: f64 = 64.0 * f64::EPSILON;
 
+/// Significance below which rounding makes more of a step than lies between an exact interpolant and the constraints.
+const TOLD: f64 = 1e-7;
+
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
 
@@ -65,7 +68,8 @@ impl Factors {
 
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
     /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
-    /// taken in. Of a row that all but vanishes nobody can tell what it says, either, unless the motion is `passing` a place where it does.
+    /// taken in. Of a row that all but vanishes nobody can tell what it says, either, unless the motion is `passing` a place where it does:
+    /// but for rows of less significance than [`TOLD`] there.
     fn factor(
         &mut self,
         at: &At<'_, f64>,
@@ -99,7 +103,11 @@ impl Factors {
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
-            let least = if self.cautious { RANK_CEILING } else { 0.0 };
+            let least = match (self.cautious, passing) {
+                (true, _) => RANK_CEILING,
+                (false, true) => TOLD,
+                (false, false) => 0.0,
+            };
             dense.set_rank(leading(dense.cod.pivots(), least), mass)
         });
         ranked.map_err(|fault| mass_error(spec, fault))
@@ -211,8 +219,8 @@ impl Manifold {
         Ok(())
     }
 
-    /// Moves `x` onto all constraints, by as many steps as that takes from nearby. Returns whether each step is no more than a share of the
-    /// one before: it is small then beside what lies between the branches of the motion.
+    /// Moves `x` onto all constraints that tell anything there, by as many steps as that takes from nearby. Returns whether each step is no
+    /// more than a share of the one before: it is small then beside what lies between the branches of the motion.
     pub(super) fn settle_on_all(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<bool, Error> {
         let mut before = f64::INFINITY;
         for _ in 0..NEARBY {

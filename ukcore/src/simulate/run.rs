@@ -39,6 +39,9 @@ pub(super) struct Run<'s> {
     /// The state at which that row was found.
     pub(super) nearest: Option<State>,
     pub(super) rows: RowWatch,
+    /// The time at which the run stands; whether rows were found to follow from others at another one, in the step in hand.
+    pub(super) stands: f64,
+    pub(super) provisional: bool,
 }
 
 impl Run<'_> {
@@ -101,7 +104,9 @@ impl Problem for Run<'_> {
             return Ok(());
         }
         let weakest = self.solver.weakest();
+        let unknown = self.solver.dropping.is_unknown();
         let result = self.solver.goes_round((at.t, at.q, at.v), out);
+        self.provisional |= unknown && at.t != self.stands && !self.solver.dropping.is_unknown();
         if self.solver.weakest() < weakest {
             self.nearest = Some(at.to_state());
         }
@@ -165,6 +170,7 @@ impl Problem for Run<'_> {
         self.solver.take_weakest();
         // What was found of rows at a singular position holds there alone.
         self.solver.dropping.forget();
+        (self.stands, self.provisional) = (t, false);
         self.nearest = None;
         self.rows.go_on_from(t, at_start);
     }
@@ -187,6 +193,10 @@ impl Problem for Run<'_> {
 
     fn singular(&mut self, purpose: Purpose, stands: Option<Sample<'_>>) -> Option<Singular> {
         let weakest = self.solver.take_weakest();
+        // In a step that came to nothing they may depend on each other by chance.
+        if std::mem::take(&mut self.provisional) && purpose == Purpose::Attempt {
+            self.solver.dropping.forget();
+        }
         self.weakest = match purpose {
             Purpose::Interpolant => self.weakest.min(weakest),
             _ => weakest,
@@ -290,6 +300,7 @@ impl Problem for Run<'_> {
             return Ok((Next::Continue, error));
         }
         self.rows.accept(step.new.t);
+        self.stands = step.new.t;
         let Some(end) = self.recorder.trajectory.last() else {
             return Ok((Next::Continue, error));
         };

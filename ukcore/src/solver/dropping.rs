@@ -121,6 +121,11 @@ impl Dropping {
         self.accept(self.rows.unwrap_or(0));
     }
 
+    /// Whether it is not known how many rows follow from the others.
+    pub(crate) fn is_unknown(&self) -> bool {
+        self.rows.is_none()
+    }
+
     /// The rank of `m` rows, if it is known.
     pub(super) fn rank(&self, m: usize) -> Option<usize> {
         self.rows.map(|rows| m - rows)

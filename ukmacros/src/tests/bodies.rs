@@ -351,6 +351,8 @@ cases! {
     force_on_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } forces { «force(ground.at([0, 0]), [1, 1])» }" => "this does not change with time";
     force_on_a_bead: "coords { s } mass { s: 1 } bodies { planar a { mass: 1, inertia: 1 } } forces { force(«a.at([s, 0])», [1, 1]) }" => "where this point is in `a` depends on `s`, and whether the force acts on `a` there or on what moves along with `s` is not told";
     force_on_moving_ground: "bodies { planar a { mass: 1, inertia: 1 } } forces { force(«ground.at([a.x, 0])», [1, 1]) }" => "a force on the ground moves nothing; one on what `a.x` moves is written `force { a.x: … }`";
+    force_on_a_bead_of_the_tree: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } tree { sl: slider(a.at([0, 0]), b.at([0, 0]), [1, 0]) } forces { force(«a.at([sl.slide, 0])», [1, 1]) }" => "whether the force acts on `a` there or on what moves along with `sl.slide` is not told";
+    force_between_moving_grounds: "bodies { planar a { mass: 1, inertia: 1 } } forces { force(«ground.at([a.x, 0])», a.at([0, 1]), 1) }" => "a force on the ground moves nothing; one on what `a.x` moves is written `force { a.x: … }`";
     force_of_a_number: "bodies { planar a { mass: 1, inertia: 1 } } forces { force(a.at([0, 0]), «1») }" => "`f` of `force(p, f)` is a vector of 2, found a number";
     spring_with_a_velocity: "bodies { planar a { mass: 1, inertia: 1 } } forces { «turning_spring(ground, a, dot(a.x), 0)» }" => "depends on coordinates and time only";
     gravity_without_bodies: "coords { x } mass { x: 1 } «gravity» { [0, -9.81] }" => "`gravity` is the weight of `bodies`, and there are none";

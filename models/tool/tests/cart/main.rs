@@ -295,7 +295,10 @@ fn its_modes_are_told() {
     fails("modes cart --set k=-1000", 1, "or hold coordinates");
     let told = output("modes cart --set k=-1000 --hold s");
     let head = "cart from `assembled` rests, with `s` held, at\n  s  0 m\n  x  0 m\n  y  -0.5 m\n";
-    assert!(told.starts_with(head) && told.contains("growth 22.1"), "{told}");
+    assert!(
+        told.starts_with(head) && told.contains("growth 22.1"),
+        "{told}"
+    );
     // A cart that no spring holds, and its pendulum with it.
     let told = output(
         "modes cart --steady --set k=0 --guess x=0 --guess y=-0.5 --guess dot(s)=1 --guess dot(x)=1 --hold s,x",

@@ -2,6 +2,7 @@
 
 use super::{Driver, Refusal};
 use crate::error::Error;
+use crate::integrate::PROJECTION_LIMIT;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::sums::projection_norm;
@@ -13,7 +14,7 @@ use crate::scan::axpy;
 const FREE: f64 = 1e-4;
 
 /// Constraints that ask for other velocities beside the zero of a switch than in the branch before, and by no more than this share of that
-/// at the zero, do so for being beside it.
+/// at the zero, and than any step may be projected by, do so for being beside it.
 const CONTINUOUS: f64 = 0.1;
 
 /// A step onto the zero of a switch.
@@ -211,7 +212,9 @@ impl Driver<'_> {
             Some((projection_norm(changes, [y, y], tolerance), entered))
         };
         match (entered(now.t, &y), entered(now.t - late, &zero)) {
-            (Some((here, state)), Some((there, _))) if there <= CONTINUOUS * here => {
+            (Some((here, state)), Some((there, _)))
+                if there <= (CONTINUOUS * here).min(PROJECTION_LIMIT) =>
+            {
                 self.stand(now, &state);
                 self.begin().is_ok()
             }

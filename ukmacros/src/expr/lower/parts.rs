@@ -97,6 +97,12 @@ macro_rules! parts {
     };
 }
 
+/// What of the rate of the distance of p and q each has by moving in its body.
+const SLIDING_ENDS: &[(&str, &str)] = &[
+    ("p", "-inner(normalise(q - p), p.along(dot(p.within)))"),
+    ("q", "inner(normalise(q - p), q.along(dot(q.within)))"),
+];
+
 parts! {
     "pin" Plane (p: Point, q: Point) Rows(&["q - p"], "x y", &[]);
     "weld" Plane (p: Point, q: Point, angle: Number["rad"] = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle", &[]);
@@ -149,14 +155,12 @@ parts! {
     ], "x y", &["[1, 0, 0]", "[0, 1, 0]"]);
     "spring" Both (p: Point, q: Point, k: Number["N/m"], l: Number["m"]) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number["N m"], angle: Number["rad"]) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
-    "damper" Both (p: Point, q: Point, c: Number["N s/m"]) Push("dot(norm(q - p))", "-c * dot(norm(q - p))", &[]);
+    "damper" Both (p: Point, q: Point, c: Number["N s/m"])
+        Push("dot(norm(q - p))", "-c * dot(norm(q - p))", SLIDING_ENDS);
     "turning_damper" Both (a: Body, b: Body, c: Number["N m s"]) Push("b.omega - a.omega", "-c * (b.omega - a.omega)", &[]);
     "force" Both (p: Point, f: Force["N"]) Push("dot(p)", "f", &[("p", "p.along(dot(p.within))")]);
     "force" Both (p: Point, q: Point, f: Number["N"])
-        Push("dot(norm(q - p))", "f", &[
-            ("p", "-inner(normalise(q - p), p.along(dot(p.within)))"),
-            ("q", "inner(normalise(q - p), q.along(dot(q.within)))"),
-        ]);
+        Push("dot(norm(q - p))", "f", SLIDING_ENDS);
     "torque" Both (b: Body, m: Moment["N m"]) Push("b.omega", "m", &[]);
     "torque" Both (a: Body, b: Body, m: Moment["N m"]) Push("b.omega - a.omega", "m", &[]);
 }
@@ -447,7 +451,7 @@ impl<'m> Lowering<'m> {
                 for (point, slip) in slips {
                     if self.moves_within(point, &inner) {
                         let slip = self.written(slip, e.loc, &inner);
-                        self.hold(slip.entries(), &force, (args, &inner), out);
+                        self.hold((point, slip.entries()), &force, (args, &inner), out);
                     }
                 }
             }
@@ -466,11 +470,11 @@ impl<'m> Lowering<'m> {
         })
     }
 
-    /// Takes from what a force does the part that it would do on points that move in their bodies, as a point of contact does where the
-    /// body turns: it acts on the body. Coordinates that are no body's may be of something that moves there, on which it acts, or not.
+    /// Takes from what a force does the part that it would do on the point `p` moving in its body, as a point of contact does where the
+    /// body turns: it acts on the body. Coordinates that move no body may be of something that moves there, on which it acts, or not.
     fn hold(
         &mut self,
-        slip: &[Id],
+        (p, slip): (&str, &[Id]),
         force: &[Id],
         (args, inner): (&[Expr], &Env<'m>),
         out: &mut Acting,
@@ -480,33 +484,51 @@ impl<'m> Lowering<'m> {
             let f = self.graph.neg(*f);
             self.push(*v, f, &mut apart);
         }
-        // Between two points it is their distance that the force works on.
-        let single = match &inner.args[0].1 {
-            Value::Point(point) if args.len() == 2 => Some(&point.body),
-            _ => None,
+        let Some((place, (_, Value::Point(point)))) =
+            (inner.args.iter().enumerate()).find(|(_, (arg, _))| arg == p)
+        else {
+            return;
         };
+        let body = point.body.clone();
+        let moving = body.moving.as_ref();
+        let mut places = moving.map_or(Vec::new(), |moving| moving.rotation(&mut self.graph));
+        places.extend(moving.iter().flat_map(|moving| &moving.place));
+        let moved = places.iter().flat_map(|id| self.graph.support(*id));
+        let moved: BTreeSet<Symbol> = moved.collect();
+        // Between two points it is their distance that a force works on.
+        let single = inner.args.iter().all(|(arg, _)| arg != "q");
         for (i, terms) in apart.force {
-            let element = &self.model.coord_elements[i];
-            let (name, own) = (&element.name, element.family < self.model.plain);
+            let name = &self.model.coord_elements[i].name;
+            let own = !moved.contains(&Symbol::Coord(i)) && !self.is_of_a_body(i);
             let message = match single {
-                Some(body) if body.moving.is_none() => format!(
+                _ if body.moving.is_none() => format!(
                     "a force on the ground moves nothing; one on what `{name}` moves is written `force {{ {name}: … }}`, and one on a body \
-                     as `force(body.at(p), F)`"
+                     at a point of it, `body.at(p)`"
                 ),
-                Some(body) if own => format!(
+                true if own => format!(
                     "where this point is in `{body}` depends on `{name}`, and whether the force acts on `{body}` there or on what moves \
                      along with `{name}` is not told; on `{body}` it is `force({body}.at(p), F)` with a fixed p and the moment of the way \
                      from there, `torque({body}, cross(r, F))`; on the other that and `force {{ {name}: … }}`"
                 ),
-                None if own => continue,
+                false if own => continue,
                 _ => {
                     out.force.entry(i).or_default().extend(terms);
                     continue;
                 }
             };
-            self.error(args[0].loc, message);
+            self.error(args[place].loc, message);
             return;
         }
+    }
+
+    /// Whether coordinate `i` is one of the place or orientation of a body.
+    fn is_of_a_body(&self, i: usize) -> bool {
+        let own = self.model.own.iter().zip(&self.model.body_elements);
+        own.filter_map(|(first, body)| Some(((*first)?, body)))
+            .any(|(first, body)| {
+                let kind = self.model.body_kinds[body.family];
+                (first..first + kind.coordinates().len()).contains(&i)
+            })
     }
 
     /// Adds the generalised force of a force `f` at what has the velocity `v`: f ∂v/∂q̇.
