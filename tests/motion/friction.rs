@@ -381,6 +381,17 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A velocity that jumps at a place, beside another one that changes fast about it, and goes on.
+    Geared {
+        coords { x, z, w }
+        mass { x: 1, w: 1 }
+        potential { 4.5 * sq(x) }
+        holonomic { follows: w = x + 0.1 * abs(x) }
+        nonholonomic { gains: dot(z) = 1e4 * abs(x) }
+    }
+}
+
 /// A step ends beside the zero of |ẋ| by what its tolerance allows; beside it constraints ask for other velocities in the other branch, and
 /// at it for the same.
 #[test]
@@ -425,5 +436,13 @@ fn constraints_with_the_size_of_a_velocity_go_on_where_it_turns() {
         let run = Simulation::new(Jerked::default()).method(method);
         let run = run.tolerance(1e-6).start(start.clone()).until(t_end);
         assert!(run.is_err(), "{method}: a jump of a velocity");
+        let start = State {
+            t: 0.0,
+            q: vec![0.5, 0.0, 0.55],
+            v: vec![3.0, 5e3, 3.3],
+        };
+        let run = Simulation::new(Geared::default()).method(method);
+        let run = run.tolerance(1e-3).start(start).until(t_end);
+        assert!(run.is_err(), "{method}: a jump beside what goes on");
     }
 }
