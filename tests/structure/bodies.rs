@@ -113,34 +113,32 @@ ukcore::multibody! {
     }
 }
 
-ukcore::multibody! {
-    /// A spatial body and one that hangs on it, pushed at places that move in them.
-    Rolled {
-        bodies {
-            spatial a { mass: 1, inertia: [1, 1.2, 1.4], centre: [0.1, 0, 0] }
-            spatial b { mass: 2, inertia: [2, 2.2, 2.4, 0.1, -0.2, 0.3], centre: [0, 0.2, 0] }
+/// A spatial body and one that hangs on it, with what acts on them.
+macro_rules! rolled {
+    ($name:ident, $($forces:tt)*) => {
+        ukcore::multibody! {
+            $name {
+                bodies {
+                    spatial a { mass: 1, inertia: [1, 1.2, 1.4], centre: [0.1, 0, 0] }
+                    spatial b { mass: 2, inertia: [2, 2.2, 2.4, 0.1, -0.2, 0.3], centre: [0, 0.2, 0] }
+                }
+                tree { h: hinge(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]), [1, 2, -2]) }
+                forces { $($forces)* }
+            }
         }
-        tree { h: hinge(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]), [1, 2, -2]) }
-        forces {
-            force(a.at(transpose(a.axes) * [0, 0, -0.3]), [1.5, t, 0.4])
-            force(b.at(transpose(b.axes) * [0, 0.1, -0.2]), [-0.3, 0.2, 0.7])
-        }
-    }
+    };
 }
 
-ukcore::multibody! {
-    /// The same by moments.
-    RolledByMoments {
-        bodies {
-            spatial a { mass: 1, inertia: [1, 1.2, 1.4], centre: [0.1, 0, 0] }
-            spatial b { mass: 2, inertia: [2, 2.2, 2.4, 0.1, -0.2, 0.3], centre: [0, 0.2, 0] }
-        }
-        tree { h: hinge(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]), [1, 2, -2]) }
-        forces {
-            force(a.at([0, 0, 0]), [1.5, t, 0.4]) torque(a, cross([0, 0, -0.3], [1.5, t, 0.4]))
-            force(b.at([0, 0, 0]), [-0.3, 0.2, 0.7]) torque(b, cross([0, 0.1, -0.2], [-0.3, 0.2, 0.7]))
-        }
-    }
+// Pushed at places that move in them, and the same by moments.
+rolled! {
+    Rolled,
+    force(a.at(transpose(a.axes) * [0, 0, -0.3]), [1.5, t, 0.4])
+    force(b.at(transpose(b.axes) * [0, 0.1, -0.2]), [-0.3, 0.2, 0.7])
+}
+rolled! {
+    RolledByMoments,
+    force(a.at([0, 0, 0]), [1.5, t, 0.4]) torque(a, cross([0, 0, -0.3], [1.5, t, 0.4]))
+    force(b.at([0, 0, 0]), [-0.3, 0.2, 0.7]) torque(b, cross([0, 0.1, -0.2], [-0.3, 0.2, 0.7]))
 }
 
 #[test]

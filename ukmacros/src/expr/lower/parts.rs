@@ -2,17 +2,20 @@
 //!
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
+mod acting;
+
+pub(super) use acting::Acting;
+
 use super::array::{Value, describe};
 use super::bodies::Frame;
 use super::reactions::Load;
 use super::{Env, Lowering, Place};
-use crate::diag::{Loc, suggest};
-use crate::expr::diff::Gradient;
-use crate::expr::graph::{Id, Symbol};
+use crate::diag::Loc;
+use crate::expr::graph::Id;
 use crate::model::{Scope, arguments};
 use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// What an argument is.
@@ -179,14 +182,6 @@ const COUNTERPARTS: &[(&str, &str)] = &[
     ("rolls", "`wheel`"),
 ];
 
-/// What the entries of `forces` add up to.
-#[derive(Default)]
-pub(super) struct Acting {
-    pub(super) potential: Vec<(f64, Id)>,
-    /// The forces by coordinate.
-    pub(super) force: BTreeMap<usize, Vec<Id>>,
-}
-
 impl Part {
     /// How many arguments it takes at least, and at most.
     fn arity(&self) -> (usize, usize) {
@@ -216,12 +211,6 @@ pub(super) struct Joint {
     pub(super) names: Vec<&'static str>,
     /// The load on the second body, where the joint is between bodies.
     pub(super) load: Option<Load>,
-}
-
-/// How all that acts is written.
-fn acting() -> String {
-    let parts = PARTS.iter().filter(|part| !part.joins());
-    parts.map(Part::usage).collect::<Vec<_>>().join(", ")
 }
 
 /// The names of all joints.
@@ -374,173 +363,6 @@ impl<'m> Lowering<'m> {
             load.orientation.clear();
         }
         Some(load)
-    }
-
-    /// Enters what an entry of `forces` means.
-    pub(super) fn acts(&mut self, e: &Expr, env: &Env<'m>, out: &mut Acting) {
-        let ExprKind::Call(name, args) = &e.kind else {
-            if !matches!(e.kind, ExprKind::Error) {
-                self.error(
-                    e.loc,
-                    format!(
-                        "what acts is written as one of {}; generalised forces are written `coordinate: value`, under `force` or `nonideal`",
-                        acting()
-                    ),
-                );
-            }
-            return;
-        };
-        if !PARTS.iter().any(|part| name == part.name) {
-            let names = PARTS
-                .iter()
-                .filter(|part| !part.joins())
-                .map(|part| part.name);
-            let end = suggest(
-                &name.to_string(),
-                names,
-                &format!("what acts is one of {}", acting()),
-            );
-            self.error(
-                name.span(),
-                format!("nothing that acts is called `{name}`{end}"),
-            );
-            return;
-        }
-        let Some((part, inner)) = self.part_of(name, args, env) else {
-            return;
-        };
-        match part.meaning {
-            Meaning::Rows(..) => {
-                let message =
-                    format!("`{name}` is a joint; it stands under `holonomic`: `name: {name}(…)`");
-                self.error(name.span(), message);
-            }
-            Meaning::Energy(_) if env.place == Place::Nonideal => {
-                let message = format!(
-                    "a `{name}` has a potential, which no constraint force has; it stands under `forces`"
-                );
-                self.error(name.span(), message);
-            }
-            Meaning::Energy(text) => {
-                let value = self.written(text, e.loc, &inner);
-                let velocity = value
-                    .entries()
-                    .iter()
-                    .any(|id| self.graph.uses(*id).velocity);
-                if velocity {
-                    self.error(e.loc, format!("a `{name}` depends on coordinates and time only; write what depends on velocities as a `force` or `torque`"));
-                    return;
-                }
-                out.potential
-                    .extend(value.entries().iter().map(|id| (1.0, *id)));
-            }
-            Meaning::Push(velocity, force, slips) => {
-                let (velocity, force) = (
-                    self.written(velocity, e.loc, &inner),
-                    self.written(force, e.loc, &inner),
-                );
-                if velocity.is_error() {
-                    return;
-                }
-                let last = args.last().map_or(e.loc, |a| a.loc);
-                let force = self.of_shape(&force, velocity.shape(), last);
-                let force = force.unwrap_or_default();
-                for (v, f) in velocity.entries().iter().zip(&force) {
-                    self.push(*v, *f, out);
-                }
-                for (point, slip) in slips {
-                    if self.moves_within(point, &inner) {
-                        let slip = self.written(slip, e.loc, &inner);
-                        self.hold((point, slip.entries()), &force, (args, &inner), out);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Whether the place of the point `name` in its body depends on coordinates.
-    fn moves_within(&self, name: &str, inner: &Env<'m>) -> bool {
-        let mut points = inner.args.iter().filter(|(arg, _)| arg == name);
-        points.any(|(_, value)| match value {
-            Value::Point(point) => {
-                let mut entries = point.within.entries().iter();
-                entries.any(|id| self.graph.uses(*id).coord)
-            }
-            _ => false,
-        })
-    }
-
-    /// Takes from what a force does the part that it would do on the point `p` moving in its body, as a point of contact does where the
-    /// body turns: it acts on the body. Coordinates that move no body may be of something that moves there, on which it acts, or not.
-    fn hold(
-        &mut self,
-        (p, slip): (&str, &[Id]),
-        force: &[Id],
-        (args, inner): (&[Expr], &Env<'m>),
-        out: &mut Acting,
-    ) {
-        let mut apart = Acting::default();
-        for (v, f) in slip.iter().zip(force) {
-            let f = self.graph.neg(*f);
-            self.push(*v, f, &mut apart);
-        }
-        let Some((place, (_, Value::Point(point)))) =
-            (inner.args.iter().enumerate()).find(|(_, (arg, _))| arg == p)
-        else {
-            return;
-        };
-        let body = point.body.clone();
-        let moving = body.moving.as_ref();
-        let mut places = moving.map_or(Vec::new(), |moving| moving.rotation(&mut self.graph));
-        places.extend(moving.iter().flat_map(|moving| &moving.place));
-        let moved = places.iter().flat_map(|id| self.graph.support(*id));
-        let moved: BTreeSet<Symbol> = moved.collect();
-        // Between two points it is their distance that a force works on.
-        let single = inner.args.iter().all(|(arg, _)| arg != "q");
-        for (i, terms) in apart.force {
-            let name = &self.model.coord_elements[i].name;
-            let own = !moved.contains(&Symbol::Coord(i)) && !self.is_of_a_body(i);
-            let message = match single {
-                _ if body.moving.is_none() => format!(
-                    "a force on the ground moves nothing; one on what `{name}` moves is written `force {{ {name}: … }}`, and one on a body \
-                     at a point of it, `body.at(p)`"
-                ),
-                true if own => format!(
-                    "where this point is in `{body}` depends on `{name}`, and whether the force acts on `{body}` there or on what moves \
-                     along with `{name}` is not told; on `{body}` it is `force({body}.at(p), F)` with a fixed p and the moment of the way \
-                     from there, `torque({body}, cross(r, F))`; on the other that and `force {{ {name}: … }}`"
-                ),
-                false if own => continue,
-                _ => {
-                    out.force.entry(i).or_default().extend(terms);
-                    continue;
-                }
-            };
-            self.error(args[place].loc, message);
-            return;
-        }
-    }
-
-    /// Whether coordinate `i` is one of the place or orientation of a body.
-    fn is_of_a_body(&self, i: usize) -> bool {
-        let own = self.model.own.iter().zip(&self.model.body_elements);
-        own.filter_map(|(first, body)| Some(((*first)?, body)))
-            .any(|(first, body)| {
-                let kind = self.model.body_kinds[body.family];
-                (first..first + kind.coordinates().len()).contains(&i)
-            })
-    }
-
-    /// Adds the generalised force of a force `f` at what has the velocity `v`: f ∂v/∂q̇.
-    pub(super) fn push(&mut self, v: Id, f: Id, out: &mut Acting) {
-        let gradient = Gradient::of(v, &self.graph);
-        for symbol in gradient.symbols() {
-            if let Symbol::Velocity(i) = symbol {
-                let slope = gradient.along(symbol, &mut self.graph);
-                let term = self.graph.mul(f, slope);
-                out.force.entry(i).or_default().push(term);
-            }
-        }
     }
 
     /// The value of a text of the table; what is wrong with it is wrong with what stands at `loc`.
