@@ -14,7 +14,7 @@ use crate::modes::{
 use crate::naming::PARTICIPATION;
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};
-use crate::spec::Spec;
+use crate::spec::{Body, Spec};
 use crate::spectrum::singular;
 
 mod dead_centre;
@@ -228,33 +228,30 @@ pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<S
 /// One that hangs on one other alone, or on the ground, is what it is there for; one that others hang on in the tree takes them along.
 fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usize)> {
     let spec = mech.spec();
-    let body = |j: usize| spec.coords[j].rsplit_once('.').map(|(body, _)| body);
-    let mut bodies: Vec<&str> = (0..spec.n()).filter_map(body).collect();
-    bodies.dedup();
+    let bodies = spec.structure.bodies;
     let lengths = quaternions(mech, state);
-    let pattern = spec.structure.jacobian_pattern;
     let mass = mass_matrix(mech, state);
-    let ways = |name: &&str| {
-        let own: Vec<usize> = (0..spec.n()).filter(|j| body(*j) == Some(*name)).collect();
-        // One with a place of its own hangs on none.
-        let free = own.iter().any(|j| spec.coords[*j] == format!("{name}.x"));
+    let ways = |body: &Body| {
+        let own: Vec<usize> = (0..spec.n()).filter(|j| body.has(*j)).collect();
         let carries = |i: &usize| (0..spec.n()).any(|j| mass[(*i, j)] != 0.0 && !own.contains(&j));
-        if free && own.iter().any(carries) {
+        // One with a place of its own hangs on none.
+        if !body.joint && own.iter().any(carries) {
             return 0;
         }
-        let of = |row: usize| {
-            pattern
-                .iter()
-                .filter(move |(c, _)| *c == row)
-                .map(|(_, j)| *j)
-        };
+        let of = |row: usize| spec.structure.in_row(row);
         let joins =
-            |c: &usize| of(*c).any(|j| own.contains(&j)) && lengths.iter().all(|(row, _)| row != c);
+            |c: &usize| of(*c).any(|j| body.has(j)) && lengths.iter().all(|(row, _)| row != c);
         // What it shares rows with: other bodies, or the ground.
-        let mut neighbours: BTreeSet<Option<&str>> = BTreeSet::new();
+        let mut neighbours: BTreeSet<Option<usize>> = BTreeSet::new();
         for row in (0..spec.m()).filter(joins) {
-            let others = of(row).filter(|j| !own.contains(j));
-            let others: Vec<&str> = others.map(|j| body(j).unwrap_or(spec.coords[j])).collect();
+            let others = of(row).filter(|j| !body.has(*j));
+            let first = |j: usize| {
+                bodies
+                    .iter()
+                    .find(|body| body.has(j))
+                    .map_or(j, |body| body.first)
+            };
+            let others: Vec<usize> = others.map(first).collect();
             match others.is_empty() {
                 true => neighbours.extend([None]),
                 false => neighbours.extend(others.into_iter().map(Some)),
@@ -267,7 +264,7 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
         let held = pivots.iter().filter(|pivot| **pivot > INDEPENDENT);
         own.len() - held.count()
     };
-    let ways = bodies.iter().map(|name| ((*name).to_owned(), ways(name)));
+    let ways = bodies.iter().map(|body| (body.name.to_owned(), ways(body)));
     ways.filter(|(_, ways)| *ways > 0).collect()
 }
 

@@ -14,7 +14,7 @@ pub use crate::start::{Chosen, StartOptions};
 
 /// What a mechanism says of itself beyond its declaration. Everything has a default; what is given serves the tools.
 pub trait Model: Mechanism {
-    /// Name on the command line, such as `"uchain"`; if empty, the name of the type as [`kebab_case`].
+    /// Name on the command line, such as `"uchain"`; if empty, the name of the type, `UChain` as `u-chain`.
     const ID: &'static str = "";
 
     /// The start states on offer, those declared if not given; the first is the default. Where there is none, a start is
@@ -108,7 +108,7 @@ type Start = fn(&Prepared, &str, &StartOptions) -> Result<State, Error>;
 /// A mechanism as tools handle it: an object with a name, its default parameters, and what it says of itself.
 #[derive(Clone)]
 pub struct Entry {
-    /// Name on the command line: [`Model::ID`], or the name of the type as [`kebab_case`].
+    /// Name on the command line: [`Model::ID`], or the name of the type, `UChain` as `u-chain`.
     pub id: String,
     /// What the mechanism is, in one line.
     pub summary: &'static str,
@@ -254,8 +254,7 @@ impl<M: Mechanism> AsMechanism for &Type<M> {
 }
 
 /// The name of a type as it is written on a command line: `UChain` as `u-chain`, `HTTPServer2` as `http-server2`.
-#[must_use]
-pub fn kebab_case(name: &str) -> String {
+pub(crate) fn kebab_case(name: &str) -> String {
     let letters: Vec<char> = name.chars().collect();
     let mut text = String::new();
     for (i, letter) in letters.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 mod structure;
 
-pub use structure::{Check, Costs, Operations, Pivot, Solve, Structure};
+pub use structure::{Body, Check, Costs, Operations, Pivot, Solve, Structure};
 
 use crate::error::Error;
 

@@ -245,6 +245,7 @@ const _: () = {
                 angles: &[2],
                 phases: &[],
                 parts: &[],
+                bodies: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -220,6 +220,7 @@ const _: () = {
                 angles: &[],
                 phases: &[],
                 parts: &[],
+                bodies: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

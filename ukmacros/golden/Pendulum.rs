@@ -219,6 +219,7 @@ const _: () = {
                 angles: &[],
                 phases: &[],
                 parts: &[],
+                bodies: &[],
                 scleronomic: true,
                 nonideal: false,
                 loaded: false,

@@ -259,6 +259,7 @@ const _: () = {
                 angles: &[],
                 phases: &[],
                 parts: &[],
+                bodies: &[],
                 scleronomic: true,
                 nonideal: true,
                 loaded: false,

@@ -87,15 +87,12 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
 
 fn rows(out: &mut dyn Write, samples: &[(f64, Vec<Effort>)]) -> io::Result<()> {
     let names = samples.first().map_or(&[][..], |(_, efforts)| efforts);
-    let names = names.iter().map(|e| format!(",{0},power({0})", e.name));
-    writeln!(out, "t{}", names.collect::<String>())?;
-    for (t, efforts) in samples {
-        let values = efforts
-            .iter()
-            .map(|e| format!(",{},{}", full(e.effort), full(e.power)));
-        writeln!(out, "{}{}", full(*t), values.collect::<String>())?;
-    }
-    Ok(())
+    let names = (names.iter()).flat_map(|e| [e.name.to_owned(), format!("power({})", e.name)]);
+    let rows = samples.iter().map(|(t, efforts)| {
+        let values = efforts.iter().flat_map(|e| [e.effort, e.power]);
+        [*t].into_iter().chain(values).map(full)
+    });
+    output::csv(out, ["t".to_owned()].into_iter().chain(names), rows)
 }
 
 fn summary(

@@ -198,19 +198,20 @@ fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()
     let names = names
         .chain(accelerations.map(|name| format!("ddot({name})")))
         .chain(found.efforts.iter().map(|(name, _)| name.clone()));
-    writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
-    for (posture, efforts) in found.swept.postures.iter().zip(&found.values) {
+    let postures = found.swept.postures.iter().zip(&found.values);
+    let rows = postures.map(|(posture, efforts)| {
         let values = columns::values(columns, mechanism, Sample::from(&posture.state));
-        let values = [&values, &posture.acceleration, efforts]
-            .into_iter()
-            .flatten();
-        let text = |x: &f64| match x.is_finite() {
-            true => full(*x),
-            false => String::new(),
+        let values = [&values, &posture.acceleration, efforts].into_iter();
+        let text = |x: &f64| {
+            if x.is_finite() {
+                full(*x)
+            } else {
+                String::new()
+            }
         };
-        writeln!(out, "{}", values.map(text).collect::<Vec<_>>().join(","))?;
-    }
-    Ok(())
+        values.flatten().map(text).collect::<Vec<_>>()
+    });
+    output::csv(out, names, rows)
 }
 
 fn summary(

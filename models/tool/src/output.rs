@@ -277,18 +277,26 @@ impl Directory {
         name: &str,
         rows: impl IntoIterator<Item = Vec<(&'static str, String)>>,
     ) -> Result<(), Failure> {
-        write_whole(&self.file(name), |w| {
-            let mut table = csv::Writer::from_writer(w);
-            for (k, row) in rows.into_iter().enumerate() {
-                let (names, cells): (Vec<_>, Vec<_>) = row.into_iter().unzip();
-                if k == 0 {
-                    table.write_record(names)?;
-                }
-                table.write_record(cells)?;
-            }
-            table.flush()
-        })
+        let mut rows = rows.into_iter().peekable();
+        let names = rows.peek().into_iter().flatten().map(|(name, _)| *name);
+        let names: Vec<_> = names.collect();
+        let cells = rows.map(|row| row.into_iter().map(|(_, cell)| cell));
+        write_whole(&self.file(name), |w| csv(w, names, cells))
     }
+}
+
+/// Writes comma-separated values: the names of columns, then rows of cells.
+pub(crate) fn csv<C: AsRef<[u8]>>(
+    out: &mut dyn Write,
+    names: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    rows: impl IntoIterator<Item = impl IntoIterator<Item = C>>,
+) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(names)?;
+    for row in rows {
+        table.write_record(row)?;
+    }
+    table.flush()
 }
 
 /// Writes `value` as JSON with a line's end.

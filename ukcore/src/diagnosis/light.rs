@@ -7,9 +7,6 @@ use crate::modes::{constraint_matrix, mass_matrix};
 /// A body is light that has less than this part of what another one has.
 const LIGHT: f64 = 1e-4;
 
-/// The coordinates of a body's place, and those of its orientation: inertia is compared among the same ones.
-const KINDS: [&[&str]; 2] = [&["x", "y", "z"], &["angle", "e0", "e1", "e2", "e3"]];
-
 /// The body that the constraints called `names` move most for the inertia it has, if that is nothing beside what another one in them has.
 pub(super) fn light(mech: &Prepared, state: &State, names: &[String]) -> Option<&'static str> {
     let spec = mech.spec();
@@ -18,23 +15,16 @@ pub(super) fn light(mech: &Prepared, state: &State, names: &[String]) -> Option<
         .filter(|row| names.iter().any(|name| name == spec.constraints[*row].name))
         .map(|row| rows.row(row).into_owned())
         .collect();
-    // Body, kind, mean inertia, and the squares of what the rows have of it by that.
+    // Body, lengths or orientation, mean inertia, and the squares of what the rows have of it by that.
     let mut parts: Vec<(&str, usize, f64, f64)> = Vec::new();
-    for (kind, own) in KINDS.into_iter().enumerate() {
-        let of = |j: usize| {
-            let (body, coordinate) = spec.coords[j].rsplit_once('.')?;
-            own.contains(&coordinate).then_some(body)
-        };
-        let mut bodies: Vec<&str> = (0..spec.n()).filter_map(of).collect();
-        bodies.dedup();
-        for body in bodies {
-            let all: Vec<usize> = (0..spec.n()).filter(|j| of(*j) == Some(body)).collect();
-            let sum: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
-            let inertia = sum / all.len() as f64;
-            let moved = rows.iter().flat_map(|row| all.iter().map(|j| row[*j]));
+    for body in spec.structure.bodies {
+        for (kind, own) in body.coordinates().into_iter().enumerate() {
+            let sum: f64 = own.clone().map(|j| mass[(j, j)]).sum();
+            let inertia = sum / own.len() as f64;
+            let moved = rows.iter().flat_map(|row| own.clone().map(|j| row[j]));
             let moved: f64 = moved.map(|a| a * a).sum();
             if moved > 0.0 && inertia > 0.0 {
-                parts.push((body, kind, inertia, moved / inertia));
+                parts.push((body.name, kind, inertia, moved / inertia));
             }
         }
     }

@@ -31,6 +31,8 @@ pub struct Structure {
     /// The part of the mechanism that each coordinate belongs to, by the first coordinate of it, where there are several whose motions do
     /// not depend on each other; empty where all are one, and where M is not expanded, so that nothing tells.
     pub parts: &'static [usize],
+    /// Bodies that have a place of their own, and joints of the tree, in the order of their coordinates.
+    pub bodies: &'static [Body],
     /// The equations contain no explicit time.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
@@ -49,6 +51,36 @@ pub struct Structure {
     pub left_out: &'static [&'static str],
     /// What the emitted code costs, and what it would cost otherwise.
     pub costs: Costs,
+}
+
+/// A body that has a place of its own, or a joint of the tree with the body that hangs on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Body {
+    /// The name before the dot of its coordinates.
+    pub name: &'static str,
+    /// It is a joint of the tree.
+    pub joint: bool,
+    /// Position in q of its first coordinate.
+    pub first: usize,
+    /// How many of its coordinates, the first ones, are lengths.
+    pub lengths: usize,
+    /// How many of its coordinates, those that follow, are an orientation.
+    pub turns: usize,
+}
+
+impl Body {
+    /// Positions in q of its coordinates that are lengths, and of those of its orientation.
+    pub(crate) fn coordinates(&self) -> [std::ops::Range<usize>; 2] {
+        let turned = self.first + self.lengths;
+        [self.first..turned, turned..turned + self.turns]
+    }
+
+    /// Whether this coordinate is one of it.
+    pub(crate) fn has(&self, coordinate: usize) -> bool {
+        self.coordinates()
+            .iter()
+            .any(|own| own.contains(&coordinate))
+    }
 }
 
 /// How q̈ is solved for: the elimination of K = [M Aᵀ; A 0] that the compiler chose. Positions in K: coordinate i is i, constraint i is n +
@@ -251,6 +283,7 @@ impl Structure {
         angles: &[],
         phases: &[],
         parts: &[],
+        bodies: &[],
         scleronomic: false,
         nonideal: false,
         loaded: false,

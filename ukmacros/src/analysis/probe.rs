@@ -86,7 +86,7 @@ impl Shake {
     }
 }
 
-/// A small deterministic generator.
+/// Random draws, the same at each run, from a seed: SplitMix64 (Steele, Lea & Flood 2014).
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -111,7 +111,7 @@ impl Random {
         }
     }
 
-    fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut x = self.0;
         x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

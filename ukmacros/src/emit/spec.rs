@@ -59,7 +59,7 @@ pub(super) fn spec(
     let switches = switches.map(|((function, terms), Switch { length, .. })| {
         quote! { ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*], length: #length } }
     });
-    let structure = structure(analysis);
+    let structure = structure(model, analysis);
     let equations = equations(listing);
     quote! {
         const SPEC: &'static ukcore::Spec = &ukcore::Spec {
@@ -123,7 +123,7 @@ fn pair(i: usize, j: usize) -> TokenStream {
     quote! { (#i, #j) }
 }
 
-fn structure(analysis: &Analysis) -> TokenStream {
+fn structure(model: &Model, analysis: &Analysis) -> TokenStream {
     let mut mass: Vec<(usize, usize)> = Vec::new();
     for (i, j) in analysis.dynamics.mass.keys() {
         mass.push((*i, *j));
@@ -161,6 +161,11 @@ fn structure(analysis: &Analysis) -> TokenStream {
         quote! { (#i, #times) }
     });
     let parts = parts.iter().map(|i| number(*i));
+    let bodies = model.owners().into_iter().map(|body| {
+        let (name, joint, first) = (body.name, body.joint, number(body.first));
+        let (lengths, turns) = (number(body.lengths()), number(body.turns()));
+        quote! { ukcore::Body { name: #name, joint: #joint, first: #first, lengths: #lengths, turns: #turns } }
+    });
     let forced = forced.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
@@ -183,6 +188,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             angles: &[#(#angles),*],
             phases: &[#(#phases),*],
             parts: &[#(#parts),*],
+            bodies: &[#(#bodies),*],
             scleronomic: #scleronomic,
             nonideal: #nonideal,
             loaded: #loaded,

@@ -510,16 +510,9 @@ impl Model {
     }
 
     /// The positions in q of the first coordinates of all quaternions: of bodies, and of joints of the tree.
-    pub(crate) fn quaternions(&self) -> impl Iterator<Item = usize> {
-        let bodies = self.body_elements.iter().zip(&self.own);
-        let spatial = bodies.filter(|(body, _)| self.body_kinds[body.family].spatial);
-        let joints = self
-            .joints
-            .iter()
-            .filter(|joint| joint.kind.coordinates.len() == 4);
-        spatial
-            .filter_map(|(_, own)| Some((*own)? + 3))
-            .chain(joints.map(|joint| joint.first))
+    pub(crate) fn quaternions(&self) -> impl Iterator<Item = usize> + use<'_> {
+        let turned = self.owners().into_iter().filter(|body| body.turns() == 4);
+        turned.map(|body| body.first + body.lengths())
     }
 
     /// How the `name` is shown.

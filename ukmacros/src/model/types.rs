@@ -136,6 +136,52 @@ impl BodyKind {
     }
 }
 
+/// A body that has a place of its own, or a joint of the tree with the body that hangs on it, by its coordinates.
+pub(crate) struct Body<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) joint: bool,
+    /// Position in q of its first coordinate.
+    pub(crate) first: usize,
+    pub(crate) coordinates: &'static [&'static str],
+}
+
+impl Body<'_> {
+    /// How many of its coordinates, the first ones, are lengths.
+    pub(crate) fn lengths(&self) -> usize {
+        let length = |name: &&&str| unit_of(name) == Unit::parse("m").ok();
+        self.coordinates.iter().take_while(length).count()
+    }
+
+    /// How many of its coordinates, those that follow, are an orientation.
+    pub(crate) fn turns(&self) -> usize {
+        self.coordinates.len() - self.lengths()
+    }
+}
+
+impl Model {
+    /// Bodies with coordinates of their own and joints of the tree, in the order of their coordinates.
+    pub(crate) fn owners(&self) -> Vec<Body<'_>> {
+        let bodies = self.body_elements.iter().zip(&self.own);
+        let bodies = bodies.filter_map(|(body, own)| {
+            Some(Body {
+                name: &body.name,
+                joint: false,
+                first: (*own)?,
+                coordinates: self.body_kinds[body.family].coordinates(),
+            })
+        });
+        let joints = self.joints.iter().map(|joint| Body {
+            name: &joint.name,
+            joint: true,
+            first: joint.first,
+            coordinates: joint.kind.coordinates,
+        });
+        let mut all: Vec<Body> = bodies.chain(joints).collect();
+        all.sort_by_key(|body| body.first);
+        all
+    }
+}
+
 /// What the coordinate of this `name` of a body or joint is measured in.
 pub(super) fn unit_of(name: &str) -> Option<Unit> {
     let unit = match name {

@@ -1,6 +1,6 @@
 //! Derivatives against differences, simplification against evaluation.
 
-use super::random::Random;
+use crate::analysis::Random;
 use crate::expr::{Derivative, Func, Graph, Id, Node, Point, Symbol, eval};
 
 const X: Symbol = Symbol::Coord(0);
@@ -203,7 +203,7 @@ fn naive(steps: &[(usize, usize, usize)], x: f64, y: f64) -> (f64, f64) {
 
 #[test]
 fn random_expressions() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut judged = 0;
     while judged < 1000 {
         let steps: Vec<_> = (0..1 + random.below(13))

@@ -2,8 +2,8 @@
 
 mod mechanisms;
 
-use super::random::Random;
 use super::system;
+use crate::analysis::Random;
 use crate::analysis::{
     Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, opened, orders, turned,
 };
@@ -208,7 +208,7 @@ impl Tally {
 
 #[test]
 fn straight_lines_solve_the_saddle_point_system() {
-    let mut random = Random(20_131);
+    let mut random = Random::new(20_131);
     let mut tally = Tally::default();
     for case in 0..170 {
         tally.case(if case >= 140 { 0 } else { 1 + case % 4 }, &mut random);
@@ -251,7 +251,7 @@ fn quaternions_written_out_are_turned() {
             hung: at(0, [0.1, -0.3, 0.2]) = [0, 0, 0], \
             ball: at(0, [0.2, 0.3, -0.1]) = at(1, [-0.1, 0.2, 0.3]) } }";
     let mut tally = Tally::default();
-    tally.check(source, &mut Random(20_132));
+    tally.check(source, &mut Random::new(20_132));
     let Tally { solved, turned, .. } = tally;
     assert!(turned > 0 && solved > turned, "{tally:?}");
 }
@@ -263,7 +263,7 @@ fn hunt() {
     let cases = std::env::var("HUNT").ok().and_then(|n| n.parse().ok());
     let mut tally = Tally::default();
     for seed in 0..cases.unwrap_or(400) {
-        let mut random = Random(1_000_000 + seed);
+        let mut random = Random::new(1_000_000 + seed);
         // Of two cases one is of bodies in space.
         let kind = usize::try_from(seed % 8).unwrap_or(0).saturating_sub(3);
         tally.case(kind, &mut random);

@@ -1,6 +1,6 @@
 //! What products have in common.
 
-use super::random::Random;
+use crate::analysis::Random;
 use crate::analysis::{cost, shared};
 use crate::expr::{Func, Graph, Id, Point, Symbol, eval};
 
@@ -43,7 +43,7 @@ fn common_factors_are_multiplied_once() {
 /// Sums of products of sums, with powers and reciprocals: the values stay, and nothing costs more.
 #[test]
 fn values_stay_as_they_are() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for _ in 0..60 {
         let mut g = Graph::default();
         let mut known: Vec<Id> = (0..6).map(|k| g.symbol(Symbol::Coord(k))).collect();

@@ -2,7 +2,7 @@
 
 use super::errors::check;
 use super::expand;
-use super::random::Random;
+use crate::analysis::Random;
 
 #[track_caller]
 fn accepted(body: &str) -> String {
@@ -371,7 +371,7 @@ impl Writer {
 #[test]
 fn random_expressions() {
     let mut writer = Writer {
-        random: Random(1),
+        random: Random::new(1),
         params: Vec::new(),
     };
     for _ in 0..150 {

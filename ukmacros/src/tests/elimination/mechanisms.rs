@@ -1,6 +1,6 @@
 //! Declarations of random mechanisms.
 
-use crate::tests::random::Random;
+use crate::analysis::Random;
 use std::fmt::Write as _;
 
 /// Particles in a plane with links in trees and loops; some with rods between them that share inertia, some driven, some followed by
