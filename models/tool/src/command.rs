@@ -91,14 +91,14 @@ struct Cli {
 /// A whole program: reads the command line and does what it asks with these models. [`main!`](crate::main) is what calls it.
 #[must_use]
 pub fn main(models: &[Entry]) -> ExitCode {
-    exit(parse::<Cli>().command.run(models))
+    exit(parse::<Cli>(models).command.run(models))
 }
 
-/// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
+/// Reads the command line of this program, which is about these models; ends it where help is asked for or the command line is wrong.
 #[must_use]
-pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
+pub fn parse<C: CommandFactory + FromArgMatches>(models: &[Entry]) -> C {
     let matches = C::command().name(program()).try_get_matches();
-    let mut matches = matches.unwrap_or_else(|error| answered(error, &C::command()).exit());
+    let mut matches = matches.unwrap_or_else(|error| answered(error, &C::command(), models).exit());
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
 
@@ -135,8 +135,8 @@ const ANSWERS: [(&str, &str); 7] = [
 ];
 
 /// An error of the command line, with the command or option that is meant where there is none of its name.
-fn answered(mut error: clap::Error, whole: &clap::Command) -> clap::Error {
-    if let Some(tip) = meant(&error, whole) {
+fn answered(mut error: clap::Error, whole: &clap::Command, models: &[Entry]) -> clap::Error {
+    if let Some(tip) = meant(&error, whole, models) {
         error.remove(ContextKind::SuggestedSubcommand);
         let tip = ContextValue::StyledStrs(vec![tip.into()]);
         error.insert(ContextKind::Suggested, tip);
@@ -145,7 +145,7 @@ fn answered(mut error: clap::Error, whole: &clap::Command) -> clap::Error {
 }
 
 /// The command or option that is meant, unless the error tells.
-fn meant(error: &clap::Error, whole: &clap::Command) -> Option<String> {
+fn meant(error: &clap::Error, whole: &clap::Command, models: &[Entry]) -> Option<String> {
     let string = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),
         _ => None,
@@ -160,6 +160,11 @@ fn meant(error: &clap::Error, whole: &clap::Command) -> Option<String> {
             .then(|| format!("`--set {setting}` sets a parameter or an option of the start"));
     }
     let asked = string(ContextKind::InvalidSubcommand)?;
+    if models.iter().any(|model| model.id == asked) {
+        return Some(format!(
+            "`run {asked}` integrates it, `explain {asked}` shows its equations; a command stands before the model"
+        ));
+    }
     let lower = asked.to_lowercase();
     let mut answers = ANSWERS.iter();
     if let Some((_, answer)) = answers.find(|(names, _)| names.split(' ').any(|n| n == lower)) {

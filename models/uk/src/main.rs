@@ -34,11 +34,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let cli: Cli = command::parse();
+    let models = models::entries();
+    let cli: Cli = command::parse(&models);
     command::exit(match cli.command {
         None => paper::paper(Path::new(paper::OUT)),
         Some(Command::Paper { out }) => paper::paper(&out),
-        Some(Command::Tool(command)) => command.run(&models::entries()),
+        Some(Command::Tool(command)) => command.run(&models),
     })
 }
 

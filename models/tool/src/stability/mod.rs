@@ -66,7 +66,7 @@ const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is t
 /// A whole program: reads the command line and runs these cases.
 #[must_use]
 pub fn main(cases: &[Case<'_>]) -> ExitCode {
-    command::exit(stability(cases, &command::parse()))
+    command::exit(stability(cases, &command::parse(&[])))
 }
 
 /// Runs the cases that are asked for and writes the report to `args.out`.

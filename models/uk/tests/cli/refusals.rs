@@ -33,6 +33,7 @@ fn wrong_names_get_the_nearest_right_one() {
         ),
         ("rum fish", "tip: a similar subcommand exists: 'run'"),
         ("rnu fish", "tip: a similar subcommand exists: 'run'"),
+        ("fish", "tip: `run fish` integrates it, "),
         ("run fish phi=1", "tip: `--set phi=1` sets a parameter"),
     ]);
 }
