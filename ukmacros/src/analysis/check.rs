@@ -21,16 +21,18 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     let g = &system.graph;
     let mut seen: HashMap<(Kind, Id), usize> = HashMap::new();
     let mut same: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut joints: HashSet<String> = HashSet::new();
+    let mut told: HashSet<String> = HashSet::new();
     for (row, constraint) in system.constraints.iter().enumerate() {
         let name = constraint.item.text();
         let uses = g.uses(constraint.phi);
         let message = match constraint.kind {
-            _ if g.is_zero(constraint.phi) && constraint.item.row.is_some() => Some(format!(
-                "row `{name}` is always true, as its bodies cannot move in its direction; write the other rows of the joint as equations"
-            )),
             _ if g.is_zero(constraint.phi) => {
-                Some(format!("constraint `{name}` is always true; remove it"))
+                let whole = constraint.item.whole();
+                let message = format!("constraint `{whole}` is always true; remove it");
+                if !told.insert(whole) {
+                    continue;
+                }
+                Some(message)
             }
             Kind::Holonomic if !uses.coord => Some(format!(
                 "constraint `{name}` contains no coordinate, so it constrains nothing"
@@ -40,7 +42,7 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
                 let message =
                     format!("`{joint}` is a joint, which stands under `holonomic`; move it there");
                 // Once for all of its rows.
-                if !joints.insert(joint) {
+                if !told.insert(joint) {
                     continue;
                 }
                 Some(message)

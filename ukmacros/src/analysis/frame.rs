@@ -16,8 +16,7 @@ use super::cost::cost;
 use super::dynamics::Dynamics;
 use super::joint::{Joint, joints};
 use super::lift::Lift;
-use super::probe::{Probe, Random};
-use crate::expr::{Derivative, Graph, Id, Node, Symbol, eval};
+use crate::expr::{Derivative, Graph, Id, Node, Probe, Random, Symbol, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Random states at which right angles are looked for: a polynomial that vanishes there is zero.

@@ -7,9 +7,10 @@
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
 use super::functions::{Function, Role};
-use super::probe::{Probe, Random, Shake};
 use super::switches::Switch;
-use crate::expr::{Graph, Id, Map, Node, Num, Symbol, System, eval, eval_shaken};
+use crate::expr::{
+    Graph, Id, Map, Node, Num, Probe, Random, Shake, Symbol, System, eval, eval_shaken,
+};
 use std::collections::BTreeMap;
 
 /// States at which both forms of the equations are compared.

@@ -14,9 +14,8 @@
 
 use super::dynamics::Dynamics;
 use super::frame::Frame;
-use super::probe::{Probe, Random};
 use super::redundant::Level;
-use crate::expr::{Graph, Id, Sweep};
+use crate::expr::{Graph, Id, Probe, Random, Sweep};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// States on the constraints that are looked at.

@@ -14,7 +14,6 @@ mod hub;
 mod joint;
 mod lift;
 mod phases;
-mod probe;
 mod reactions;
 mod redundant;
 mod regular;
@@ -39,8 +38,6 @@ pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 #[cfg(test)]
 pub(crate) use frame::{Turned, opened, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
-#[cfg(test)]
-pub(crate) use probe::Random;
 pub(crate) use schedule::{Program, Step};
 #[cfg(test)]
 pub(crate) use share::shared;

@@ -10,8 +10,7 @@
 //! too many costs some operations; where one is missed, or the search does not arrive, the dense solve takes over as ever.
 
 use super::dynamics::Dynamics;
-use super::probe::{Probe, Random};
-use crate::expr::{Graph, Id, Sweep};
+use crate::expr::{Graph, Id, Probe, Random, Sweep};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Residuals of rows of length 1 below this share of the coordinates are zero.

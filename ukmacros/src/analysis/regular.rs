@@ -15,9 +15,8 @@
 
 use super::dynamics::Dynamics;
 use super::groups::Groups;
-use super::probe::{Probe, Random};
 use super::redundant::{Redundant, redundant};
-use crate::expr::{Graph, Id, Node, Num, Symbol, System, eval};
+use crate::expr::{Graph, Id, Node, Num, Probe, Random, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15,

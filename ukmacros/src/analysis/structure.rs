@@ -208,7 +208,9 @@ fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> 
     let entries = |count: usize, of: usize, what: &str| {
         format!("{count} of {of} entries of {what}: identically zero")
     };
+    let always = &system.left_out;
     let all = [
+        (!always.is_empty(), format!("`{}`: always true, as their bodies cannot move in these directions", always.join("`, `"))),
         (m == 0, "constraint solve: there are no constraints, M q̈ = Q".to_owned()),
         (
             m > 0 && written < n * m,

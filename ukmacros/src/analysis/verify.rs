@@ -6,8 +6,7 @@
 //!   δᵀ (d/dt ∂T/∂q̇ − ∂T/∂q), which must be δᵀ (M q̈ − Q) with Q without the declared forces and −∂V/∂q.
 
 use super::dynamics::Dynamics;
-use super::probe::{Probe, Random, Shake};
-use crate::expr::{Graph, Id, Jet, Kind, Node, Symbol, System, eval_shaken};
+use crate::expr::{Graph, Id, Jet, Kind, Node, Probe, Random, Shake, Symbol, System, eval_shaken};
 use std::collections::HashSet;
 
 /// Relative difference that rounding can explain at arguments of order one; a wrong derivative is off by far more.

@@ -71,7 +71,8 @@ impl Sweep {
         self.shaken(g, point, &mut |x| x)
     }
 
-    fn shaken(
+    /// Values of the roots with `shake` applied to the value of each node.
+    pub(crate) fn shaken(
         &mut self,
         g: &Graph,
         point: &Point<'_>,

@@ -10,6 +10,7 @@ mod functions;
 mod graph;
 mod jet;
 mod lower;
+mod probe;
 
 pub(crate) use diff::{Adjoint, Derivative, Gradient};
 pub(crate) use display::Printer;
@@ -25,3 +26,4 @@ pub(crate) use lower::{
     Constraint, ConstraintRef, Drawing, Kind, NamedUnit, OptionValue, OutputValue, StartValue,
     System, lower, units,
 };
+pub(crate) use probe::{Probe, Random, Shake};

@@ -1,6 +1,6 @@
 //! Derivatives against differences, simplification against evaluation.
 
-use crate::analysis::Random;
+use crate::expr::Random;
 use crate::expr::{Derivative, Func, Graph, Id, Node, Point, Symbol, eval};
 
 const X: Symbol = Symbol::Coord(0);

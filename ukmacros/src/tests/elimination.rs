@@ -3,10 +3,10 @@
 mod mechanisms;
 
 use super::system;
-use crate::analysis::Random;
 use crate::analysis::{
     Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, opened, orders, turned,
 };
+use crate::expr::Random;
 use crate::expr::{Point, System, eval};
 use mechanisms::{bodies, declaration, linkage, spatial};
 use std::collections::{BTreeMap, BTreeSet};

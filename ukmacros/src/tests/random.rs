@@ -1,7 +1,7 @@
 //! No input makes the macro panic.
 
 use super::expand;
-use crate::analysis::Random;
+use crate::expr::Random;
 
 impl Random {
     /// One of the numbers below `n`.

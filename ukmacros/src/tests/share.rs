@@ -1,7 +1,7 @@
 //! What products have in common.
 
-use crate::analysis::Random;
 use crate::analysis::{cost, shared};
+use crate::expr::Random;
 use crate::expr::{Func, Graph, Id, Point, Symbol, eval};
 
 /// Multiplications and divisions of `roots` as they are, and with what they share computed once.

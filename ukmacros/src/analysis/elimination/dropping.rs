@@ -24,8 +24,7 @@ use super::matrix::Factor;
 use super::solution::{Forward, Solution};
 use crate::analysis::dynamics::Dynamics;
 use crate::analysis::groups::Groups;
-use crate::analysis::probe::Random;
-use crate::expr::{Func, Graph, Id};
+use crate::expr::{Func, Graph, Id, Random};
 use std::collections::BTreeMap;
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.

@@ -1,5 +1,6 @@
 //! Model to graph: loops unrolled, functions applied, vectors taken apart. This file walks the sections.
 
+mod always;
 mod array;
 mod bodies;
 mod calls;
@@ -112,6 +113,7 @@ fn lower_with<'m>(
         unknown: HashSet::new(),
         results: HashMap::new(),
         constraints: Vec::new(),
+        left_out: Vec::new(),
         constrained: false,
         known: HashMap::new(),
         reaction_used: None,
@@ -163,6 +165,8 @@ struct Lowering<'m> {
     /// Names of constraints, outputs and integrals.
     results: HashMap<String, NoValue>,
     constraints: Vec<Constraint>,
+    /// Rows that always hold, and so are none of the constraints.
+    left_out: Vec<String>,
     /// Whether all constraints are there.
     constrained: bool,
     /// Constraints by their names, without those of rows.
@@ -224,6 +228,9 @@ impl<'m> Lowering<'m> {
                 self.equation(equation, kind, scope, &mut names);
             });
         }
+        if self.diag.is_empty() {
+            self.leave_out_what_always_holds();
+        }
         self.constrained = true;
         let nonideal = early.unwrap_or_else(|| nonideal(self));
         let mut names = Names::default();
@@ -248,6 +255,7 @@ impl<'m> Lowering<'m> {
             nonideal,
             inertias: of_bodies.inertias,
             constraints: std::mem::take(&mut self.constraints),
+            left_out: std::mem::take(&mut self.left_out),
             outputs,
             integrals,
             reaction: self.reaction_used,

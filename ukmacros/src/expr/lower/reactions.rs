@@ -11,15 +11,15 @@ use crate::expr::graph::{Graph, Id, Node, Symbol};
 use crate::model::{Name, indexed};
 use crate::parse::{Expr, ExprKind};
 use proc_macro2::Ident;
-use std::ops::Range;
 
 /// A constraint that is declared: its rows.
 pub(super) struct Known {
-    rows: Range<usize>,
+    /// Nothing for those that always hold.
+    pub(super) rows: Vec<Option<usize>>,
     /// The shape of the constraint's equation.
     shape: Vec<usize>,
     /// What a joint of several rows calls them.
-    names: Vec<&'static str>,
+    pub(super) names: Vec<&'static str>,
     /// The load of a joint between bodies.
     load: Option<Load>,
 }
@@ -97,7 +97,7 @@ impl<'m> Lowering<'m> {
         load: Option<Load>,
     ) {
         let known = Known {
-            rows: first..self.constraints.len(),
+            rows: (first..self.constraints.len()).map(Some).collect(),
             shape: shape.to_vec(),
             names,
             load,
@@ -152,7 +152,7 @@ impl<'m> Lowering<'m> {
         };
         match row {
             row if name == "moment" => self.moment(&text, row, arg),
-            None => self.whole(&text),
+            None => self.whole(&text, arg),
             Some(row) => Value::Scalar(self.graph.symbol(Symbol::Multiplier(row))),
         }
     }
@@ -223,20 +223,22 @@ impl<'m> Lowering<'m> {
     }
 
     /// The force of a joint between points on its second body; of any other constraint its multipliers, in the shape of its equation.
-    fn whole(&mut self, text: &str) -> Value {
+    fn whole(&mut self, text: &str, arg: &Expr) -> Value {
+        let Some(rows) = self.all_rows(text, arg) else {
+            return Value::Error;
+        };
         let Some(Known {
-            rows,
-            shape,
-            names,
-            load,
+            shape, names, load, ..
         }) = self.known.get(text)
         else {
             return Value::Error;
         };
-        let (rows, shape) = (rows.clone(), shape.clone());
+        let shape = shape.clone();
         let Some(Load { pushes, .. }) = load.clone().filter(|load| load.at.is_some()) else {
-            let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
-            let multipliers: Vec<Id> = multipliers.collect();
+            let multipliers = rows.iter().map(|row| Symbol::Multiplier(*row));
+            let multipliers: Vec<Id> = multipliers
+                .map(|symbol| self.graph.symbol(symbol))
+                .collect();
             return Value::new(&shape, multipliers);
         };
         if !pushes.is_empty() {
@@ -245,17 +247,33 @@ impl<'m> Lowering<'m> {
         // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
-        let components = rows.take(axes).map(Symbol::Multiplier);
+        let components = rows.into_iter().take(axes).map(Symbol::Multiplier);
         let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
         Value::vector(components)
     }
 
+    /// The rows of a constraint, none of which may be left out where its reaction is asked for: it would be any.
+    fn all_rows(&mut self, text: &str, arg: &Expr) -> Option<Vec<usize>> {
+        let Known { rows, names, .. } = self.known.get(text)?;
+        if let Some(k) = rows.iter().position(Option::is_none) {
+            let left = names
+                .get(k)
+                .map_or_else(String::new, |name| format!(", `{name}` among them,"));
+            let message = format!(
+                "`{text}` has no unique reaction: rows of it{left} always hold, as its bodies cannot move in their directions; take those of other rows, each by its name"
+            );
+            self.error(arg.loc, message);
+            return None;
+        }
+        rows.iter().copied().collect()
+    }
+
     /// The force of these rows, the first of which push so.
-    fn pushed(&mut self, pushes: &[Vec<Id>], rows: &Range<usize>) -> Vec<Id> {
+    fn pushed(&mut self, pushes: &[Vec<Id>], rows: &[usize]) -> Vec<Id> {
         let dimensions = pushes.first().map_or(0, Vec::len);
         let along = (0..dimensions).map(|k| {
-            let terms = rows.clone().zip(pushes).map(|(row, push)| {
-                let multiplier = self.graph.symbol(Symbol::Multiplier(row));
+            let terms = rows.iter().zip(pushes).map(|(row, push)| {
+                let multiplier = self.graph.symbol(Symbol::Multiplier(*row));
                 (1.0, self.graph.mul(push[k], multiplier))
             });
             let terms: Vec<(f64, Id)> = terms.collect();
@@ -265,11 +283,11 @@ impl<'m> Lowering<'m> {
     }
 
     /// The generalised forces of these rows along `coordinates`, times `sign`.
-    fn generalised(&mut self, coordinates: &[usize], sign: f64, rows: &Range<usize>) -> Vec<Id> {
+    fn generalised(&mut self, coordinates: &[usize], sign: f64, rows: &[usize]) -> Vec<Id> {
         let along = coordinates.iter().map(|i| {
-            let terms = rows.clone().map(|row| {
-                let slope = slope(&self.constraints[row], *i, &mut self.graph);
-                let multiplier = self.graph.symbol(Symbol::Multiplier(row));
+            let terms = rows.iter().map(|row| {
+                let slope = slope(&self.constraints[*row], *i, &mut self.graph);
+                let multiplier = self.graph.symbol(Symbol::Multiplier(*row));
                 (sign, self.graph.mul(slope, multiplier))
             });
             let terms: Vec<(f64, Id)> = terms.collect();
@@ -280,10 +298,13 @@ impl<'m> Lowering<'m> {
 
     /// The moment of a joint, or of a row of it, on its second body, about its point of that body: in the plane a number.
     fn moment(&mut self, text: &str, row: Option<usize>, arg: &Expr) -> Value {
-        let Some(Known { rows, load, .. }) = self.known.get(text) else {
+        let rows = match row {
+            None => self.all_rows(text, arg),
+            Some(row) => Some(vec![row]),
+        };
+        let (Some(rows), Some(Known { load, .. })) = (rows, self.known.get(text)) else {
             return Value::Error;
         };
-        let rows = row.map_or_else(|| rows.clone(), |row| row..row + 1);
         let Some(load) = load.clone() else {
             let message = format!(
                 "`{text}` is no joint between bodies; its multipliers are `reaction({text})`"
@@ -323,7 +344,14 @@ impl<'m> Lowering<'m> {
     fn of_row(&mut self, name: &Ident, text: &str, row: &Ident) -> Option<usize> {
         let Known { rows, names, .. } = self.known.get(text)?;
         if let Some(k) = names.iter().position(|name| row == name) {
-            return Some(rows.start + k);
+            let known = rows.get(k).copied().flatten();
+            if known.is_none() {
+                let message = format!(
+                    "row `{row}` of `{text}` always holds, as its bodies cannot move in its direction, and has no unique reaction"
+                );
+                self.error(row.span(), message);
+            }
+            return known;
         }
         let message = match names.len() {
             0 => {

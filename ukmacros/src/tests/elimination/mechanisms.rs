@@ -1,6 +1,6 @@
 //! Declarations of random mechanisms.
 
-use crate::analysis::Random;
+use crate::expr::Random;
 use std::fmt::Write as _;
 
 /// Particles in a plane with links in trees and loops; some with rods between them that share inertia, some driven, some followed by

@@ -1,6 +1,6 @@
 //! States at which equations are looked at numerically: the compiler's checks of itself, and what it has to know about M.
 
-use crate::expr::Point;
+use super::eval::Point;
 
 /// A state.
 pub(crate) struct Probe<'a> {
