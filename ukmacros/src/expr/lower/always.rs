@@ -1,5 +1,5 @@
-//! What holds wherever bodies can be. A hinge that closes a planar loop of bodies in space keeps them in the plane, which the other joints of
-//! the tree do already: some of its rows are 0 = 0, but for what rounding makes of sines and directions.
+//! What holds wherever bodies can be. A hinge that closes a planar loop of bodies in space keeps them in the plane, which the other joints
+//! of the tree do already: some of its rows are 0 = 0, but for what rounding makes of sines and directions.
 //!
 //! A function that vanishes at random states vanishes everywhere. Rows that do so are left out, for of rounding alone a row would be made
 //! like any other; what does so with all of its rows is a mistake.
