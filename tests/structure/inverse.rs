@@ -1,5 +1,7 @@
 //! Efforts of motors against closed forms.
 
+mod closed;
+
 use tests::assert_close;
 use ukcore::solver::SolverOptions;
 use ukcore::studies::{Kinematics, Posture};

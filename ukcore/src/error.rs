@@ -299,7 +299,7 @@ pub(crate) fn named(constraints: &[(String, f64)]) -> String {
     texts.join(", ")
 }
 
-fn quoted(names: &[String]) -> String {
+pub(crate) fn quoted(names: &[String]) -> String {
     let listed = match names.len() {
         len if len > MOST_LISTED => MOST_LISTED - 1,
         len => len,

@@ -3,12 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{State, held};
-use crate::error::Error;
+use crate::error::{Error, quoted};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, measure, null_space, units};
+use crate::modes::{complement, constraint_matrix, decompose, measure, units};
 use crate::naming;
+use crate::noise::Noise;
 use crate::scan::largest;
-use crate::solver::{Solver, SolverOptions};
+use crate::solver::{Independent, Solver, SolverOptions};
 use crate::spectrum::singular;
 
 /// What a motor does at a state.
@@ -53,7 +54,7 @@ const IDLE: f64 = 1e-9;
 /// motor's effort is what it takes to move against them.
 ///
 /// # Errors
-/// [`Error::UnknownName`] with the nearest name; what [`Solver::solve`] reports.
+/// [`Error::UnknownName`] with the nearest name; what [`Inverse::efforts`] reports.
 pub fn inverse(
     mechanism: impl Into<Prepared>,
     state: &State,
@@ -90,17 +91,20 @@ impl Inverse {
     /// What the motors do at `state`, as [`inverse`] has it.
     ///
     /// # Errors
-    /// What [`Solver::solve`] reports.
+    /// What [`Solver::solve`] reports; [`Error::InvalidSetting`] so near to a singular position that rounding of the state does not tell
+    /// what the joints leave free.
     pub fn efforts(&mut self, state: &State) -> Result<Vec<Effort>, Error> {
         let State { t, q, v } = state;
         let solution = self.solver.solve(*t, q, v)?;
-        let (mech, driven) = (self.solver.mechanism(), &self.driven);
+        let driven = &self.driven;
+        let m = self.solver.mechanism().spec().m();
+        let joints: Vec<usize> = (0..m).filter(|row| !driven.contains(row)).collect();
+        // In displacements that the joints allow no force of theirs does work: there the motors are alone.
+        let free = displacements(&mut self.solver, state, &joints)?;
+        let mech = self.solver.mechanism();
         let spec = mech.spec();
         let units = units(mech, state);
         let rows = constraint_matrix(mech, state);
-        let joints: Vec<usize> = (0..spec.m()).filter(|row| !driven.contains(row)).collect();
-        // In displacements that the joints allow no force of theirs does work: there the motors are alone.
-        let free = null_space(rows.select_rows(&joints), &units);
         let mut acting = rows.select_rows(driven);
         let speeds = &acting * DVector::from_column_slice(v);
         measure(&mut acting, &units);
@@ -129,20 +133,30 @@ impl Inverse {
 /// # Errors
 /// - [`Error::UnknownName`] with the nearest name; [`Error::WrongLength`], [`Error::NonFinite`].
 /// - [`Error::InvalidSetting`] where the acceleration does not satisfy a constraint, and where forces on these coordinates alone cannot
-///   make the motion, with the coordinate on which a force is missing most; where declared forces depend on reactions, which these forces
-///   would change.
+///   make the motion, with the coordinate on which a force is missing most; so near to a singular position that rounding of the state does
+///   not tell what is free; where declared forces depend on reactions, which these forces would change.
 pub fn inverse_forces(
     mechanism: impl Into<Prepared>,
     posture: &Posture,
     coordinates: &[&str],
 ) -> Result<Vec<Effort>, Error> {
-    let mech: Prepared = mechanism.into();
-    let spec = mech.spec();
-    let (n, m) = (spec.n(), spec.m());
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
+    forces(&mut solver, posture, coordinates)
+}
+
+/// [`inverse_forces`] for the mechanism of `solver`.
+pub(crate) fn forces(
+    solver: &mut Solver,
+    posture: &Posture,
+    coordinates: &[&str],
+) -> Result<Vec<Effort>, Error> {
     let Posture {
         state,
         acceleration,
     } = posture;
+    let mech = solver.mechanism();
+    let spec = mech.spec();
+    let (n, m) = (spec.n(), spec.m());
     let driven = held(spec, coordinates)?;
     if spec.structure.loaded {
         let reason = format!(
@@ -152,22 +166,30 @@ pub fn inverse_forces(
         );
         return Err(Error::invalid("coordinates", reason));
     }
-    state.check(&mech)?;
+    state.check(mech)?;
     naming::check_length("acceleration", acceleration.len(), n)?;
     if acceleration.iter().any(|a| !a.is_finite()) {
         return Err(Error::non_finite("acceleration"));
     }
     let mut terms = Evaluated::new(n, m);
-    terms.dynamics(&mech, state.t, &state.q, &state.v);
+    terms.dynamics(mech, state.t, &state.q, &state.v);
     let acceleration = DVector::from_column_slice(acceleration);
     let rows = DMatrix::from_vec(m, n, terms.jacobian);
     let mass = DMatrix::from_vec(n, n, terms.mass);
-    let units = units(&mech, state);
+    let units = units(mech, state);
     let size = acceleration.component_div(&units).norm();
-    for (row, b) in terms.rhs.iter().enumerate() {
-        let entries = rows.row(row).transpose();
-        let most = entries.component_mul(&units).norm() * size + b.abs();
-        if (entries.dot(&acceleration) - b).abs() > MET * most {
+    let off = |row: usize, carried: f64| {
+        let (entries, b) = (rows.row(row).transpose(), terms.rhs[row]);
+        let most = entries.component_mul(&units).norm() * size + b.abs() + carried;
+        (entries.dot(&acceleration) - b).abs() > MET * most
+    };
+    if (0..m).any(|row| off(row, 0.0)) {
+        // The terms that b is made of may cancel: in units of ε their rounding is their size.
+        let mut noise = Noise::new(mech);
+        let mut carried = vec![0.0; m];
+        noise.go(mech, state.t, [&state.q, &state.v], |_| [0.0; 2]);
+        noise.motion(acceleration.as_slice(), &mut carried);
+        if let Some(row) = (0..m).find(|row| off(*row, carried[*row])) {
             let name = spec.constraints[row].name;
             return Err(Error::invalid(
                 "acceleration",
@@ -179,7 +201,8 @@ pub fn inverse_forces(
     let inertial = &mass * &acceleration;
     let sizes = (inertial.abs() + given.abs()).component_mul(&units);
     let missing = (inertial - given).component_mul(&units);
-    let free = null_space(rows, &units);
+    let all: Vec<usize> = (0..m).collect();
+    let free = displacements(solver, state, &all)?;
     let acting = DMatrix::from_diagonal(&units).select_rows(&driven);
     let mut wanted = free.tr_mul(&missing);
     let rounding = NOTHING * sizes.sum();
@@ -206,16 +229,38 @@ pub fn inverse_forces(
     Ok(effort.collect())
 }
 
-/// The efforts whose sum of squares is least, of those that act by the rows `acting` as `wanted` in the displacements `free`.
-fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> DVector<f64> {
-    let strongest = acting.amax();
-    let none = DVector::zeros(acting.nrows());
-    if free.is_empty() || acting.is_empty() {
-        return none;
+/// An orthonormal basis, measured by [`units`], of the displacements that the `rows` of A allow at `state`, in columns.
+fn displacements(
+    solver: &mut Solver,
+    state: &State,
+    rows: &[usize],
+) -> Result<DMatrix<f64>, Error> {
+    let State { t, q, v } = state;
+    let Independent { rows, clear } = solver.independent((*t, q, v), rows)?;
+    let mech = solver.mechanism();
+    if clear < rows.len() {
+        let doubtful = quoted(&mech.spec().constraint_names(&rows[clear..]));
+        let reason = format!(
+            "is so near to a singular position that rounding does not tell whether {doubtful} can be implied by the other constraints there, \
+             and so what is free to move; take one beside it"
+        );
+        return Err(Error::invalid("state", reason));
     }
+    let independent = constraint_matrix(mech, state).select_rows(&rows);
+    let (decomposed, _) = decompose(independent, &units(mech, state));
+    Ok(complement(q.len(), &decomposed, rows.len()))
+}
+
+/// The efforts whose sum of squares is least, of those that act by the rows `acting` as `wanted` in the displacements `free`; not a number
+/// where any of these are none.
+fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> DVector<f64> {
+    if free.is_empty() || acting.is_empty() {
+        return DVector::zeros(acting.nrows());
+    }
+    let strongest = acting.amax();
     let svd = singular((acting * free).transpose(), true, true);
     svd.and_then(|svd| svd.solve(wanted, IDLE * strongest).ok())
-        .unwrap_or(none)
+        .unwrap_or_else(|| DVector::from_element(acting.nrows(), f64::NAN))
 }
 
 impl Prepared {

@@ -10,10 +10,10 @@ use std::ops::Range;
 use crate::assemble::{Held, State, assembled, held};
 use crate::diagnosis::quoted;
 use crate::error::Error;
-use crate::inverse::{Effort, Posture, inverse_forces};
+use crate::inverse::{Effort, Posture, forces};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, null_space, units};
 use crate::numbers::significant;
+use crate::solver::{Solver, SolverOptions};
 use crate::spec::OutputSpec;
 
 mod curve;
@@ -163,25 +163,37 @@ impl Kinematics {
     /// [`Error::UnknownName`] with the nearest name; what [`inverse_forces`](crate::inverse_forces()) reports.
     pub fn efforts(&self, coordinates: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
         let driven = held(self.mechanism.spec(), coordinates)?;
-        let freedoms = |posture: &Posture| {
-            let rows = constraint_matrix(&self.mechanism, &posture.state);
-            null_space(rows, &units(&self.mechanism, &posture.state)).ncols()
+        let solver = || Solver::new(&self.mechanism, SolverOptions::default());
+        let all: Vec<usize> = (0..self.mechanism.spec().m()).collect();
+        let independent = |solver: &mut Solver, posture: &Posture| {
+            let State { t, q, v } = &posture.state;
+            solver
+                .independent((*t, q, v), &all)
+                .map(|found| found.clear)
         };
         // Looked at only where forces are refused.
-        let usual = LazyCell::new(|| self.postures.iter().map(freedoms).min());
+        let usual = LazyCell::new(|| {
+            let (mut solver, all) = (solver(), self.postures.iter());
+            all.flat_map(|posture| independent(&mut solver, posture))
+                .max()
+        });
+        let mut solver = solver();
         let unknown = |j: &usize| Effort {
             name: self.mechanism.spec().coords[*j],
             effort: f64::NAN,
             power: f64::NAN,
         };
-        let efforts = self.postures.iter().map(|posture| {
-            match inverse_forces(&self.mechanism, posture, coordinates) {
-                Err(Error::InvalidSetting { .. }) if Some(freedoms(posture)) > *usual => {
-                    Ok(driven.iter().map(unknown).collect())
-                }
-                found => found,
-            }
-        });
+        let efforts =
+            self.postures
+                .iter()
+                .map(|posture| match forces(&mut solver, posture, coordinates) {
+                    Err(Error::InvalidSetting { .. })
+                        if independent(&mut solver, posture).ok() < *usual =>
+                    {
+                        Ok(driven.iter().map(unknown).collect())
+                    }
+                    found => found,
+                });
         efforts.collect()
     }
 

@@ -139,6 +139,22 @@ impl Measure {
         self.natural.fill(0.0);
     }
 
+    /// Compares rows, until the next state, with what they are in coordinates that are not `held`, at the state of the last scale, where A
+    /// has the entries `jacobian`, or beside it.
+    pub(crate) fn hold(&mut self, held: &[usize], pattern: &[(usize, usize)], jacobian: &[f64]) {
+        self.forget_rows();
+        if self.kept {
+            return;
+        }
+        let m = self.natural.len();
+        for (c, i) in pattern.iter().filter(|(_, i)| !held.contains(i)) {
+            let place = i * m + c;
+            let other = Some(self.jacobian[place].abs()).filter(|x| x.is_finite());
+            let entry = jacobian[place].abs().max(other.unwrap_or(0.0));
+            self.natural[*c] = self.natural[*c].max(self.scale[*i] * entry);
+        }
+    }
+
     /// Takes the scale at a state, where A has the entries `jacobian` and M is `mass` (both column-major).
     pub(crate) fn take(
         &mut self,

@@ -38,7 +38,7 @@ mod settings;
 use agreement::Drift;
 pub(crate) use dropping::Accepted;
 use dropping::Dropping;
-pub(crate) use rank::leading;
+pub(crate) use rank::{Independent, leading};
 pub use settings::{Baumgarte, Formula, Solution, SolverOptions, SolverWork};
 
 /// Default of [`SolverOptions::rank_tolerance`].
@@ -401,8 +401,8 @@ impl Solver {
         y
     }
 
-    /// Evaluates, factors, and decides the rank. Returns the formula, and the tolerance that decided.
-    fn decide(&mut self, (t, q, v): Given<'_>) -> Result<(Formula, f64), Error> {
+    /// Evaluates the equations, and takes what makes coordinates comparable.
+    fn evaluate(&mut self, (t, q, v): Given<'_>) -> Result<(), Error> {
         naming::check_lengths(&self.mechanism, q, v)?;
         naming::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
@@ -426,8 +426,14 @@ impl Solver {
         }
         let measure = &mut self.dense.measure;
         measure.take(&self.mechanism, t, [q, v], &terms.jacobian, &terms.mass);
+        Ok(())
+    }
+
+    /// Evaluates, factors, and decides the rank. Returns the formula, and the tolerance that decided.
+    fn decide(&mut self, at: Given<'_>) -> Result<(Formula, f64), Error> {
+        self.evaluate(at)?;
         let formula = self.factor()?;
-        let tolerance = self.decide_rank((t, q, v))?;
+        let tolerance = self.decide_rank(at)?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
             return Err(Error::Underdetermined {
                 coordinates: naming::participating(

@@ -96,9 +96,12 @@ impl Factors {
         let (q, v) = at.level.state(x, at.other);
         let measure = &mut dense.measure;
         measure.take(at.mech, at.t, [q, v], jacobian, mass);
-        // Rows may be small for want of what is held.
-        if passing || !newton.acceptance.held.is_empty() {
+        let held = &newton.acceptance.held;
+        if passing {
             measure.forget_rows();
+        } else if !held.is_empty() {
+            // Rows may be small for want of what is held.
+            measure.hold(held, spec.structure.jacobian_pattern, jacobian);
         }
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);

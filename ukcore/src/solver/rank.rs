@@ -4,9 +4,58 @@ use super::agreement::Drift;
 use super::{DRIFT_FACTOR, Given, RANK_CEILING, Solver, mass_error};
 use crate::error::Error;
 
+/// A row that counts with less significance than this, the root of some tens of ε, may be implied by the others: rounding of a state is a
+/// way of ε over the significance along the row, on which that changes by as much.
+const DOUBTFUL: f64 = 1e-7;
+
+/// Those of some rows of A that the others of them do not imply at a state.
+pub(crate) struct Independent {
+    /// Their numbers, by significance.
+    pub(crate) rows: Vec<usize>,
+    /// How many of them are independent beyond doubt.
+    pub(crate) clear: usize,
+}
+
 impl Solver {
+    /// Decides which of the rows `among` are independent, as the rank of all is decided.
+    pub(crate) fn independent(
+        &mut self,
+        at: Given<'_>,
+        among: &[usize],
+    ) -> Result<Independent, Error> {
+        self.evaluate(at)?;
+        for row in (0..self.m).filter(|row| !among.contains(row)) {
+            let entries = self.here.jacobian.iter_mut().skip(row).step_by(self.m);
+            entries.for_each(|a| *a = 0.0);
+        }
+        self.factor()?;
+        let (rank, _) = self.significant(at, among.iter().copied());
+        let cod = &self.dense.cod;
+        Ok(Independent {
+            rows: cod.order()[..rank].to_vec(),
+            clear: leading(cod.pivots(), DOUBTFUL).min(rank),
+        })
+    }
+
     /// Decides the rank (see the [module](super)) and returns the tolerance that did.
     pub(super) fn decide_rank(&mut self, at: Given<'_>) -> Result<f64, Error> {
+        let (rank, tolerance) = self.significant(at, 0..self.m);
+        // Off the constraints rows may seem to count that do not.
+        let known = self.dropping.rank(self.m);
+        self.full = known.unwrap_or(self.full.max(rank));
+        let weakest = match rank.min(self.full).checked_sub(1) {
+            Some(last) if last + 1 == self.full => self.dense.cod.pivots()[last],
+            Some(_) => 0.0,
+            None => 1.0,
+        };
+        self.weakest = self.weakest.min(weakest);
+        let reduced = self.dense.set_rank(rank, &self.here.mass);
+        reduced.map_err(|fault| mass_error(self.mechanism.spec(), fault))?;
+        Ok(tolerance)
+    }
+
+    /// How many rows count, of those `among` all to which A is [factored](Solver::factor), and the tolerance that decided.
+    fn significant(&mut self, at: Given<'_>, among: impl Iterator<Item = usize>) -> (usize, f64) {
         let mut tolerance = self.options.rank_tolerance;
         let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
         let mut rank = self.dense.cod.pivots().len();
@@ -16,7 +65,7 @@ impl Solver {
             let there = self.drift.there.rows();
             let (here, measure) = (self.here.rows(), &self.dense.measure);
             let scale = &measure.scale;
-            for c in 0..self.m {
+            for c in among {
                 let change = here.row(c).zip(there.row(c)).zip(scale);
                 let change = change.map(|((a, b), s)| ((a - b) * s).abs());
                 // Not finite: no state worth the name is near.
@@ -33,18 +82,7 @@ impl Solver {
             tolerance = tolerance.min(RANK_CEILING);
             rank = leading(self.dense.cod.pivots(), tolerance);
         }
-        // Off the constraints rows may seem to count that do not.
-        let known = self.dropping.rank(self.m);
-        self.full = known.unwrap_or(self.full.max(rank));
-        let weakest = match rank.min(self.full).checked_sub(1) {
-            Some(last) if last + 1 == self.full => self.dense.cod.pivots()[last],
-            Some(_) => 0.0,
-            None => 1.0,
-        };
-        self.weakest = self.weakest.min(weakest);
-        let reduced = self.dense.set_rank(rank, &self.here.mass);
-        reduced.map_err(|fault| mass_error(self.mechanism.spec(), fault))?;
-        Ok(tolerance)
+        (rank, tolerance)
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
