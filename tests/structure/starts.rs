@@ -199,6 +199,25 @@ fn bodies_turn_as_they_are_told() {
 }
 
 #[test]
+fn held_velocities_go_by_their_names() {
+    ukcore::multibody! {
+        /// A slide whose motion is prescribed.
+        pub Prescribed {
+            coords { x, y }
+            mass { x: 1.0, y: 1.0 }
+            holonomic { drive: x = 0.5 + 3.0 * t }
+            start moving() { dot(x) = 2.0 }
+            start placed() { x = 0.7 }
+        }
+    }
+    for (start, named) in [("moving", "`dot(x)` is held"), ("placed", "`x` is held")] {
+        let refused = Prescribed::default().start(start, &[].into()).unwrap_err();
+        let refused = refused.to_string();
+        assert!(refused.contains(named), "{refused}");
+    }
+}
+
+#[test]
 fn what_goes_wrong_is_named() {
     let linkage = Linkage::default();
     let refused = |name: &str, options: StartOptions| linkage.start(name, &options).unwrap_err();

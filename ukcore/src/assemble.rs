@@ -248,8 +248,13 @@ fn blame(mech: &Prepared, guess: &State, held: &Held, mut error: Error) -> Error
         let mut blamed = all.clone();
         blamed.retain(|j| search(mech, guess, &held.without(*j)).is_ok());
         let blamed = if blamed.is_empty() { all } else { blamed };
-        let names = blamed.iter().map(|&j| mech.spec().coords[j].to_owned());
-        cause.extend(names);
+        cause.extend(blamed.iter().map(|j| {
+            let name = mech.spec().coords[*j];
+            match held.positions.contains(j) {
+                true => name.to_owned(),
+                false => format!("dot({name})"),
+            }
+        }));
     }
     error
 }

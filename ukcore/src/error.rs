@@ -54,7 +54,8 @@ pub enum Error {
         level: &'static str,
         /// Names of the constraints that are not met, with the residual that remains.
         constraints: Vec<(String, f64)>,
-        /// Names of the held coordinates without whose values there would be such a state; empty if holding is not the cause.
+        /// Names of the held coordinates without whose values there would be such a state, `dot(x)` where only a velocity is held; empty if
+        /// holding is not the cause.
         held: Vec<String>,
     },
     /// A value is NaN or infinite.
