@@ -106,6 +106,11 @@ fn multipliers_do_work_on_their_rows() {
         .iter()
         .fold(body.to_owned(), |text, unit| text.replace(unit, ""));
     assert_eq!(told(&bare), "");
+    // Rows of directions are plain numbers, whatever turns them.
+    let space = "bodies { spatial b { mass: 1 [kg], inertia: [1, 1, 1] } spatial c { mass: 1, inertia: [1, 1, 1] } } \
+        tree { axle: hinge(ground.at([0, 0, 0]), b.at([0, 0, 0]), [0, 0.6, 0.8]) } \
+        holonomic { on: hinge(b.at([1, 0, 0]), c.at([0, 0, 0]), [0, 0, 1]), motor: drive(ground, b, [0, 0.6, 0.8], 2 * t), next: drive(b, c, [0, 0, 1], 2 * t) }";
+    assert_eq!(told(space), ", N, N, N, N m, N m, N m, N m");
     let unknown = "coords { x [m], y } mass { x: 1, y: 1 } holonomic { c: y = sq(y) }";
     assert_eq!(told(unknown), "");
 }

@@ -250,6 +250,24 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// `value` as plain numbers, where it is made of numbers of which nothing else is known.
+    pub(super) fn plain_numbers(&mut self, value: Value) -> Value {
+        let mut known = |id: &Id| !matches!(self.dimension(*id), Number | Unknown);
+        if value.entries().iter().any(&mut known) {
+            return value;
+        }
+        let Some(dimensions) = &mut self.dimensions else {
+            return value;
+        };
+        let numbers = value.entries().iter();
+        let numbers = numbers.map(|id| dimensions.value_of(*id, &self.graph));
+        let Some(numbers) = numbers.collect::<Option<Vec<f64>>>() else {
+            return value;
+        };
+        let mut numbers = numbers.into_iter();
+        value.map(|_| self.graph.constant(numbers.next().unwrap_or_default()))
+    }
+
     /// How many errors of units there are.
     pub(super) fn units_told(&self) -> usize {
         self.dimensions.as_ref().map_or(0, |d| d.diag.len())

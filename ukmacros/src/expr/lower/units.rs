@@ -67,7 +67,12 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
     let coordinates = model.coord_elements.iter().map(|element| {
         let unit = element.unit.as_ref();
         let declared = element.family < model.plain;
-        unit.map_or(Unknown, |unit| Measured::known(unit.dimension(), declared))
+        // Those of quaternions have none.
+        let other = match declared {
+            true => Unknown,
+            false => Measured::of(Dimension::NUMBER),
+        };
+        unit.map_or(other, |unit| Measured::known(unit.dimension(), declared))
     });
     let dimensions = Dimensions {
         diag,

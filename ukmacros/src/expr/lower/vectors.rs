@@ -190,6 +190,13 @@ impl<'m> Lowering<'m> {
         if values.iter().any(Value::is_error) {
             return Value::Error;
         }
+        let values = match operation.name {
+            // Of directions lengths do not count.
+            "normalise" | "normal" | "normals" => {
+                values.into_iter().map(|v| self.plain_numbers(v)).collect()
+            }
+            _ => values,
+        };
         (operation.value)(&mut self.graph, &values).unwrap_or_else(|| {
             let found: Vec<String> = values.iter().map(|v| describe(v.shape())).collect();
             let (takes, found) = (operation.takes, found.join(" and "));
