@@ -95,18 +95,18 @@ pub fn equilibrium(
     let mut still = guess.clone();
     still.v.fill(0.0);
     let mut here = search.place(still)?;
-    if here.force.is_empty() {
-        // Nothing is left to move.
-        return Ok(Equilibrium {
-            state: here.state,
-            stability: Stability::Stable,
-        });
-    }
     let mut damping = 0.0_f64;
     let (first, mut firm) = (here.force.norm(), None);
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
         let firm = firm.get_or_insert(stiffness.amax());
+        if here.force.is_empty() {
+            // Nothing is left to move, as also behind a singular position.
+            return Ok(Equilibrium {
+                state: here.state,
+                stability: Stability::Stable,
+            });
+        }
         *firm = firm.max(here.force.norm() / search.size);
         let (step, loose) = here.step(&stiffness, search.size).ok_or_else(unfound)?;
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.

@@ -5,7 +5,7 @@
 //! entries below the diagonal for zero beside those on it alone, all of which vanish for a vibration without damping.
 
 use nalgebra::linalg::SymmetricEigen;
-use nalgebra::{Complex, DMatrix, Dyn, SVD};
+use nalgebra::{Complex, DMatrix, DVector, Dyn, SVD};
 
 /// Iterations at most for each row or column; two or three are usual.
 const TURNS: usize = 60;
@@ -28,9 +28,15 @@ pub(crate) fn singular(
     matrix.try_svd(left, right, 5.0 * f64::EPSILON, most)
 }
 
-/// The eigenvalues and eigenvectors of a symmetric `matrix`; `None` for one that is not finite.
+/// The eigenvalues and eigenvectors of a symmetric `matrix`, none of an empty one; `None` for one that is not finite.
 pub(crate) fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
     let most = limit(&matrix)?;
+    if matrix.is_empty() {
+        return Some(SymmetricEigen {
+            eigenvectors: matrix,
+            eigenvalues: DVector::zeros(0),
+        });
+    }
     SymmetricEigen::try_new(matrix, f64::EPSILON, most)
 }
 
@@ -216,6 +222,16 @@ mod tests {
                 assert_eq!(near.count(), 1, "{n}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_empty_has_an_empty_one() {
+        let empty = || DMatrix::zeros(0, 0);
+        assert_eq!(eigenvalues(&empty()), Some(Vec::new()));
+        let symmetric = symmetric(empty()).expect("an end");
+        assert!(symmetric.eigenvalues.is_empty() && symmetric.eigenvectors.is_empty());
+        let singular = singular(empty(), true, true).expect("an end");
+        assert!(singular.singular_values.is_empty());
     }
 
     #[test]
