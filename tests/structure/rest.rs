@@ -384,6 +384,38 @@ fn what_has_no_freedom_rests_where_it_is() {
     );
 }
 
+/// Where two constraints touch one of them tells nothing of the motion, and beside it nothing is left to move.
+#[test]
+fn what_loses_its_freedom_on_the_way_rests_where_it_is() {
+    mechanisms! {
+        Touching { coords { x, y } mass { x: 1.0, y: 1.0 } potential { 9.81 * y } holonomic { round: sq(x) + sq(y) = 1.0, wall: x = 1.0 } }
+    }
+    let found = equilibrium(Touching::default(), &guess(&[1.0, 0.0]), &[]).expect("rest");
+    assert_all_close("place", &found.state.q, &[1.0, 0.0], 1e-7);
+    assert_eq!(found.stability, Stability::Stable);
+}
+
+mechanisms! {
+    Keel {
+        coords { x, y, th } mass { x: 1.0, y: 1.0, th: 0.2 }
+        potential { sq(x - 1), 3.0 * sq(y), 0.1 * sq(th) }
+        nonholonomic { blade: -sin(th) * dot(x) + cos(th) * dot(y) = 0.0 }
+    }
+}
+
+/// λ² = −2 and −1 wherever the blade stands, and 0 across it: its stiffness is triangular, not symmetric, and no less firm for that.
+#[test]
+fn what_a_blade_holds_is_told_by_its_modes() {
+    for y in [-2.0, -0.7, 0.7, 5.0] {
+        let found = equilibrium(Keel::default(), &guess(&[1.0, y, 0.0]), &[]).expect("rest");
+        assert_eq!(found.stability, Stability::Neutral, "{y}");
+        let found = ukcore::modes(Keel::default(), &found.state).expect("rest");
+        let frequencies: Vec<f64> = found.iter().map(|mode| mode.frequency).collect();
+        assert_all_close("ω", &frequencies, &[0.0, 1.0, 2.0_f64.sqrt()], 1e-9);
+        assert!(found.iter().all(|mode| mode.growth == 0.0), "{found:?}");
+    }
+}
+
 /// The crank turns all the way, so that the linkage has two branches that never meet. The angle between coupler and rocker keeps its sign
 /// in each; the rest position has that of the start, also where a spring would
 /// rather have the other one.

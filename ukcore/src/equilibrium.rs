@@ -13,7 +13,9 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix, modes, null_space_holding, units};
+use crate::modes::{
+    constraint_matrix, is_symmetric, linear_motion, mass_matrix, null_space_holding, units,
+};
 use crate::naming::undirected;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
@@ -35,7 +37,7 @@ pub enum Stability {
     /// Some small displacements cost nothing, as that of a wheel on a plane; none grows faster than in proportion to time, as far as a
     /// linear motion tells.
     Neutral,
-    /// Some small displacements are driven on, or a vibration grows.
+    /// Some small displacements are driven on, faster than in proportion to time, or a vibration grows, be it in proportion to time.
     Unstable,
 }
 
@@ -481,8 +483,8 @@ impl Search {
     /// What the stiffness tells, and where nothing is held the modes.
     fn stability(&mut self, here: &Place, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
         if self.held.is_empty() {
-            let modes = modes(&self.mech, &here.state)?;
-            if modes.iter().any(|mode| mode.growth > 0.0) {
+            let (modes, grows) = linear_motion(&self.mech, &here.state)?;
+            if grows || modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);
             }
         }
@@ -495,7 +497,7 @@ impl Search {
             } else {
                 FLAT_BY_DIFFERENCES
             };
-        let gyroscopic = self.held.is_empty() && !self.mech.spec().structure.conservative;
+        let told_by_modes = self.held.is_empty() && !is_symmetric(&self.mech);
         Ok(match least {
             x if x > flat => {
                 let direction = curved.eigenvectors.column(softest).into_owned();
@@ -504,8 +506,8 @@ impl Search {
                     false => Stability::Stable,
                 }
             }
-            // Other forces may hold what the stiffness drives on; that nothing grows has been seen.
-            x if x >= -flat || gyroscopic => Stability::Neutral,
+            // Other forces, and constraints that are not holonomic, may hold what the stiffness drives on; that nothing grows has been seen.
+            x if x >= -flat || told_by_modes => Stability::Neutral,
             _ => Stability::Unstable,
         })
     }

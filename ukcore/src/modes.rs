@@ -59,84 +59,172 @@ impl Mode {
 
 /// The modes of `mechanism` about `state`, slowest first: by frequency, then by growth. There are as many eigenvalues as the mechanism has
 /// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. What rounding cannot tell from 0
-/// is 0: the growth of a vibration that lasts, and both parts of an eigenvalue of 0, as of a body that nothing holds, which comes double,
-/// so that the root of rounding counts.
+/// is 0: the growth of a vibration that lasts, the frequency of critical damping, and both parts of an eigenvalue of 0, as of a body that
+/// nothing holds, which comes double. Of an eigenvalue that comes so often with one shape only the root of that order of rounding counts:
+/// of critical damping about eight digits are known.
 ///
 /// # Errors
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
 /// - What [`Linearisation::at`] reports.
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
-    let mech: Prepared = mechanism.into();
-    let found = Linearisation::at(&mech, state)?;
-    let units = units(&mech, state);
-    steady(&mech, &found, state, &units)?;
+    linear_motion(&mechanism.into(), state).map(|(modes, _)| modes)
+}
+
+/// The [`modes`](modes()), and whether what none of them tells grows: deviations at an eigenvalue of 0 faster than in proportion to time,
+/// a vibration that lasts in proportion to it.
+pub(crate) fn linear_motion(mech: &Prepared, state: &State) -> Result<(Vec<Mode>, bool), Error> {
+    let found = Linearisation::at(mech, state)?;
+    let units = units(mech, state);
+    steady(mech, &found, state, &units)?;
     let (flow, pace) = flow(&found, &units);
-    let tangent = tangent(&mech, state, &units, pace);
+    let tangent = tangent(mech, state, &units, pace);
     if tangent.ncols() == 0 {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), false));
     }
     let rounding = ROUNDING * flow.norm();
     // Of what conserves its energy and rests squares of eigenvalues are real: the smaller part is rounding.
-    let spec = mech.spec();
     let rests = state.v.iter().all(|v| *v == 0.0);
-    let swings = rests && spec.structure.conservative && spec.holonomic == spec.m();
+    let swings = rests && is_symmetric(mech);
     let reduced = tangent.tr_mul(&(flow * &tangent));
     let together = TOGETHER * reduced.norm();
-    let transposed = reduced.transpose();
     let mut shapes: Vec<Found> = Vec::new();
     let reason = "has a linearised motion whose eigenvalues were not found";
     let values = eigenvalues(&reduced).ok_or_else(|| Error::invalid("state", reason))?;
-    for value in &values {
+    // One of two conjugate ones tells of both.
+    for value in values.iter().filter(|value| value.im >= 0.0) {
         let part = eigenvector(&reduced, *value, 0);
-        // It changes by as much as the matrix does, over the product of its left and its right eigenvector; as much as rounding does, or
-        // as is left of the equation, where eigenvalues coincide.
-        let known = eigenvector(&transposed, value.conj(), 0).dotc(&part).norm();
         let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * *value;
         let rounding = rounding.max(left.norm());
-        let told = |x: f64| {
-            if x.abs() * known <= rounding {
-                0.0
-            } else {
-                pace * x
-            }
+        let could_be = |re, im| is_one(&reduced, *value, Complex::new(re, im), rounding);
+        let (growth, frequency) = match *value {
+            _ if could_be(0.0, 0.0) => (0.0, 0.0),
+            Complex { re, im } if swings && im >= re.abs() => (0.0, pace * im),
+            Complex { re, .. } if swings => (pace * re, 0.0),
+            Complex { re, im } => (
+                if could_be(0.0, im) { 0.0 } else { pace * re },
+                if could_be(re, 0.0) { 0.0 } else { pace * im },
+            ),
         };
-        let (growth, frequency) = match told(value.norm()) {
-            0.0 => (0.0, 0.0),
-            _ if swings && value.im.abs() >= value.re.abs() => (0.0, told(value.im)),
-            _ if swings => (told(value.re), 0.0),
-            _ => (told(value.re), told(value.im)),
-        };
-        if frequency < 0.0 {
-            continue;
-        }
-        let again = |number| positions(&tangent, &eigenvector(&reduced, *value, number));
         let lasts = growth != 0.0 || frequency != 0.0;
-        let same = |one: &Found| lasts && (one.value - value).norm() <= together;
-        let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
-        let other = match among.len() {
-            0 => None,
-            number => share_out(&mut shapes, &among, again(number)),
-        };
-        let shape = other.unwrap_or_else(|| positions(&tangent, &part));
-        shapes.push(Found {
-            value: *value,
-            growth,
-            frequency,
-            own: shape.icamax(),
-            shape,
-        });
+        let coincide = value.im > 0.0 && frequency == 0.0;
+        for _ in 0..1 + usize::from(coincide) {
+            let same = |one: &Found| lasts && (one.value - value).norm() <= together;
+            let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
+            let again = |number| positions(&tangent, &eigenvector(&reduced, *value, number));
+            let other = match among.len() {
+                0 => None,
+                number => share_out(&mut shapes, &among, again(number)),
+            };
+            let shape = other.unwrap_or_else(|| positions(&tangent, &part));
+            shapes.push(Found {
+                value: *value,
+                growth,
+                frequency,
+                own: shape.icamax(),
+                shape,
+            });
+        }
     }
     let still: Vec<usize> = (0..shapes.len()).filter(|k| shapes[*k].stays()).collect();
     let costless = costless(&tangent, &reduced, still.len());
     for (k, shape) in still.into_iter().zip(costless.iter().cycle()) {
         shapes[k].shape.clone_from(shape);
     }
-    let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(&mech, &units)).collect();
+    let grows = !swings && grows(&reduced, &shapes);
+    let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(mech, &units)).collect();
     modes.sort_by(|a, b| {
         let by_frequency = a.frequency.total_cmp(&b.frequency);
         by_frequency.then(a.growth.total_cmp(&b.growth))
     });
-    Ok(modes)
+    Ok((modes, grows))
+}
+
+/// Where on the way from an eigenvalue to what it could be the matrix is looked at: no places where others are likely.
+const ON_THE_WAY: [f64; 3] = [0.37, 0.53, 0.71];
+
+/// Whether the eigenvalue `value` of `matrix` could be `other`, as far as `rounding` of the matrix tells: all on the way are eigenvalues of
+/// matrices as near (pseudospectra: Trefethen & Embree, Spectra and Pseudospectra, §2), in proportion to the way, as for an eigenvalue
+/// that is one of its own. That holds for defective ones, too, which rounding moves by its root.
+fn is_one(matrix: &DMatrix<f64>, value: Complex<f64>, other: Complex<f64>, rounding: f64) -> bool {
+    let apart = |share: f64| {
+        let shifted = shifted(matrix, value + (other - value) * share);
+        shifted
+            .lu()
+            .try_inverse()
+            .map_or(0.0, |inverse| inverse.norm().recip())
+    };
+    value == other
+        || ON_THE_WAY
+            .iter()
+            .all(|share| apart(*share) <= share * rounding)
+}
+
+/// Eigenvalues that differ by less, as a part of the linearised motion, may be what rounding makes of a defective one.
+const SPLIT: f64 = 1e-4;
+
+/// Whether deviations grow by powers of time: an eigenvalue of 0 has a Jordan block of three rows or more, that of a vibration that lasts
+/// one of two or more.
+fn grows(reduced: &DMatrix<f64>, shapes: &[Found]) -> bool {
+    let zeros = shapes.iter().filter(|shape| shape.stays()).count();
+    if zeros > 2 && largest_block(reduced) > 2 {
+        return true;
+    }
+    let lasting = shapes
+        .iter()
+        .filter(|x| x.growth == 0.0 && x.frequency > 0.0);
+    let frequencies: Vec<f64> = lasting.map(|x| x.value.im).collect();
+    frequencies.iter().any(|one| {
+        let mut near = frequencies.clone();
+        near.sort_by(|a, b| (a - one).abs().total_cmp(&(b - one).abs()));
+        let split = SPLIT * reduced.norm();
+        let near: Vec<f64> = near
+            .into_iter()
+            .take_while(|x| (x - one).abs() <= split)
+            .collect();
+        // Of what a defective eigenvalue is split into the mean is known as well as others are.
+        (2..=near.len()).any(|count| {
+            let mean = near[..count].iter().sum::<f64>() / count as f64;
+            let n = reduced.nrows();
+            let mut aside = DMatrix::zeros(2 * n, 2 * n);
+            aside.view_mut((0, 0), (n, n)).copy_from(reduced);
+            aside.view_mut((n, n), (n, n)).copy_from(reduced);
+            aside.view_mut((0, n), (n, n)).fill_diagonal(mean);
+            aside.view_mut((n, 0), (n, n)).fill_diagonal(-mean);
+            largest_block(&aside) > 1
+        })
+    })
+}
+
+/// How many rows the largest Jordan block of the eigenvalue 0 of `matrix` has: so often something is left that vanishes when what has
+/// vanished is divided out (the staircase of Kublanovskaya: Golub & Van Loan, Matrix Computations, 4th ed., §7.6.5), which needs no powers.
+fn largest_block(matrix: &DMatrix<f64>) -> usize {
+    let rounding = TOGETHER * matrix.norm();
+    let (mut left, mut size) = (matrix.clone(), 0);
+    while !left.is_empty() {
+        let (decomposed, pivots) = pivoted(&left);
+        let rank = pivots.iter().filter(|x| **x > rounding).count();
+        if rank == pivots.len() {
+            break;
+        }
+        let q = decomposed.q();
+        let kept = q.columns(0, rank);
+        left = kept.tr_mul(&(left * kept));
+        size += 1;
+    }
+    size
+}
+
+/// Whether mass and stiffness at rest are symmetric, and nothing else acts: forces have a potential, and constraints are holonomic.
+pub(crate) fn is_symmetric(mech: &Prepared) -> bool {
+    let spec = mech.spec();
+    spec.structure.conservative && spec.holonomic == spec.m()
+}
+
+/// `matrix` less `value` on its diagonal.
+fn shifted(matrix: &DMatrix<f64>, value: Complex<f64>) -> DMatrix<Complex<f64>> {
+    let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
+    (0..matrix.nrows()).for_each(|k| shifted[(k, k)] -= value);
+    shifted
 }
 
 /// A mode on the way.
@@ -482,11 +570,7 @@ fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVe
     };
     let mut aside = share * matrix.norm().max(f64::MIN_POSITIVE);
     let solver = loop {
-        let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
-        for k in 0..n {
-            shifted[(k, k)] -= value + aside;
-        }
-        let solver = shifted.lu();
+        let solver = shifted(matrix, value + aside).lu();
         if solver.is_invertible() || !aside.is_finite() {
             break solver;
         }
