@@ -34,8 +34,8 @@ pub struct Equilibrium {
 pub enum Stability {
     /// All small displacements are driven back, and no vibration grows.
     Stable,
-    /// Some small displacements cost nothing, as that of a wheel on a plane; none grows faster than in proportion to time, as far as a
-    /// linear motion tells.
+    /// Some small displacements cost nothing, as that of a wheel on a plane, or are held by other forces than those of the stiffness; none
+    /// grows faster than in proportion to time, and no vibration grows, as far as a linear motion tells.
     Neutral,
     /// Some small displacements are driven on, faster than in proportion to time, or a vibration grows, be it in proportion to time.
     Unstable,
@@ -100,8 +100,6 @@ pub fn equilibrium(
     let mut damping = 0.0_f64;
     let (first, mut firm) = (here.force.norm(), None);
     for _ in 0..STEPS {
-        let stiffness = search.stiffness(&here)?;
-        let firm = firm.get_or_insert(stiffness.amax());
         if here.force.is_empty() {
             // Nothing is left to move, as also behind a singular position.
             return Ok(Equilibrium {
@@ -109,12 +107,14 @@ pub fn equilibrium(
                 stability: Stability::Stable,
             });
         }
+        let stiffness = search.stiffness(&here)?;
+        let firm = firm.get_or_insert(stiffness.amax());
         *firm = firm.max(here.force.norm() / search.size);
         let (step, loose) = here.step(&stiffness, search.size).ok_or_else(unfound)?;
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
         let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
         if here.is_balanced() || still && loose <= BALANCED * here.parts {
-            search.is_smooth(&here, &stiffness, (first, *firm))?;
+            search.is_smooth(&here, &step, &stiffness, (first, *firm))?;
             let stability = search.stability(&here, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
@@ -132,6 +132,8 @@ pub fn equilibrium(
             }
             _ => damping = 4.0 * damping + 1.0,
         }
+        // What is tried may be the first to show other forces, as a force of what has not moved yet.
+        here.potential = here.potential.filter(|_| search.conservative);
         if damping > 1e20 {
             break;
         }
@@ -432,14 +434,19 @@ impl Search {
         Ok(out)
     }
 
-    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness.
+    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. That is so where
+    /// forces are left that neither rounding nor the stiffness explains, and where the stiffness is so large that `firm`, which the search
+    /// has met, is nothing beside it.
     fn is_smooth(
-        &self,
+        &mut self,
         here: &Place,
+        step: &DVector<f64>,
         stiffness: &DMatrix<f64>,
-        before: (f64, f64),
+        (first, firm): (f64, f64),
     ) -> Result<(), Error> {
-        let unbalanced = is_unbalanced(here, stiffness, before).ok_or_else(unfound)?;
+        let unexplained = is_unexplained(here, stiffness, first).ok_or_else(unfound)?;
+        let unbalanced = stiffness.amax() * f64::EPSILON > firm
+            || unexplained && !self.is_linear(here, step, stiffness);
         let beside = unbalanced.then(|| here.push.icamax());
         let Some(coordinate) = self.jump(&here.state, &here.units).or(beside) else {
             return Ok(());
@@ -450,6 +457,15 @@ impl Search {
             self.mech.spec().coords[coordinate]
         );
         Err(Error::invalid("guess", reason))
+    }
+
+    /// Whether the forces beyond `step` are those that the stiffness makes of the ones here, so that they vanish between.
+    fn is_linear(&mut self, here: &Place, step: &DVector<f64>, stiffness: &DMatrix<f64>) -> bool {
+        let there = self.displaced(here, &here.displacement(step), 2.0);
+        there.is_ok_and(|there| {
+            let expected = &here.force - stiffness * step * 2.0;
+            (here.basis.tr_mul(&there.push) - expected).norm() <= LEFT * here.force.norm()
+        })
     }
 
     /// The coordinate on which forces differ most between both sides of a switch that is zero at a state of rest, if they do.
@@ -513,14 +529,9 @@ impl Search {
     }
 }
 
-/// Whether a search that began with the largest force `first`, and has met the stiffness `firm`, ends beside a jump of forces: with one
-/// that rounding of coordinates does not explain, no less than where it began, or with a stiffness beside which that is nothing. `None` for
-/// one that is not finite.
-fn is_unbalanced(
-    here: &Place,
-    stiffness: &DMatrix<f64>,
-    (first, firm): (f64, f64),
-) -> Option<bool> {
+/// Whether a search that began with the largest force `first` ends with one that rounding of coordinates does not explain, no less than
+/// where it began. `None` for a stiffness that is not finite.
+fn is_unexplained(here: &Place, stiffness: &DMatrix<f64>, first: f64) -> Option<bool> {
     let sizes = here.state.q.iter().zip(here.units.iter());
     let sizes = DVector::from_iterator(here.units.len(), sizes.map(|(q, unit)| (q / unit).abs()));
     let curved = spectrum::symmetric(symmetric(stiffness))?;
@@ -530,7 +541,7 @@ fn is_unbalanced(
     let explained = curved.eigenvalues.abs().component_mul(&rounded);
     let left = (force.abs() - explained).map(|left| left.max(0.0));
     let limit = LEFT * first.max(here.parts);
-    Some(left.norm() > limit || stiffness.amax() * f64::EPSILON > firm)
+    Some(left.norm() > limit)
 }
 
 /// The symmetric part of `matrix`.
