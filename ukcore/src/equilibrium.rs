@@ -434,9 +434,9 @@ impl Search {
         Ok(out)
     }
 
-    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. That is so where
-    /// forces are left that neither rounding nor the stiffness explains, and where the stiffness is so large that `firm`, which the search
-    /// has met, is nothing beside it.
+    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. That is so
+    /// where forces are left that neither rounding nor the stiffness explains, and where the stiffness is so large that `firm`, which the
+    /// search has met, is nothing beside it.
     fn is_smooth(
         &mut self,
         here: &Place,
@@ -522,7 +522,7 @@ impl Search {
                     false => Stability::Stable,
                 }
             }
-            // Other forces, and constraints that are not holonomic, may hold what the stiffness drives on; that nothing grows has been seen.
+            // Other forces, or nonholonomic constraints, may hold what the stiffness drives on; that nothing grows has been seen.
             x if x >= -flat || told_by_modes => Stability::Neutral,
             _ => Stability::Unstable,
         })

@@ -195,8 +195,8 @@ fn grows(reduced: &DMatrix<f64>, shapes: &[Found]) -> bool {
     })
 }
 
-/// How many rows the largest Jordan block of the eigenvalue 0 of `matrix` has: so often something is left that vanishes when what has
-/// vanished is divided out (the staircase of Kublanovskaya: Golub & Van Loan, Matrix Computations, 4th ed., §7.6.5), which needs no powers.
+/// How many rows the largest Jordan block of the eigenvalue 0 of `matrix` has: so often something vanishes of what is left when that which
+/// has vanished is divided out (Kublanovskaya's staircase). No powers are taken, in which what is slow would be rounding.
 fn largest_block(matrix: &DMatrix<f64>) -> usize {
     let rounding = TOGETHER * matrix.norm();
     let (mut left, mut size) = (matrix.clone(), 0);

@@ -18,13 +18,22 @@ fn limit(matrix: &DMatrix<f64>) -> Option<usize> {
     finite.then_some(TURNS * (matrix.nrows() + matrix.ncols()))
 }
 
-/// The singular values of `matrix`, with singular vectors on its left and on its right if asked for; `None` for one that is not finite.
+/// The singular values of `matrix`, with singular vectors on its left and on its right if asked for, none of an empty one; `None` for one
+/// that is not finite.
 pub(crate) fn singular(
     matrix: DMatrix<f64>,
     left: bool,
     right: bool,
 ) -> Option<SVD<f64, Dyn, Dyn>> {
     let most = limit(&matrix)?;
+    if matrix.is_empty() {
+        let (rows, columns) = matrix.shape();
+        return Some(SVD {
+            u: left.then(|| DMatrix::zeros(rows, 0)),
+            v_t: right.then(|| DMatrix::zeros(0, columns)),
+            singular_values: DVector::zeros(0),
+        });
+    }
     matrix.try_svd(left, right, 5.0 * f64::EPSILON, most)
 }
 
