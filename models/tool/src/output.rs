@@ -291,8 +291,12 @@ pub(crate) fn csv<C: AsRef<[u8]>>(
     names: impl IntoIterator<Item = impl AsRef<[u8]>>,
     rows: impl IntoIterator<Item = impl IntoIterator<Item = C>>,
 ) -> io::Result<()> {
+    let mut names = names.into_iter().peekable();
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(names)?;
+    // A record of nothing would be one of an empty text.
+    if names.peek().is_some() {
+        table.write_record(names)?;
+    }
     for row in rows {
         table.write_record(row)?;
     }

@@ -27,9 +27,13 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
         let uses = g.uses(constraint.phi);
         let message = match constraint.kind {
             _ if g.is_zero(constraint.phi) => {
-                let whole = constraint.item.whole();
-                let message = format!("constraint `{whole}` is always true; remove it");
-                if !told.insert(whole) {
+                // Rows of a joint are there only if all of them are.
+                let name = match constraint.item.row {
+                    Some(_) => constraint.item.whole(),
+                    None => name,
+                };
+                let message = format!("constraint `{name}` is always true; remove it");
+                if !told.insert(name) {
                     continue;
                 }
                 Some(message)

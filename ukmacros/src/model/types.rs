@@ -159,7 +159,7 @@ impl Body<'_> {
 }
 
 impl Model {
-    /// Bodies with coordinates of their own and joints of the tree, in the order of their coordinates.
+    /// Bodies with coordinates of their own and joints of the tree that have some, in the order of their coordinates.
     pub(crate) fn owners(&self) -> Vec<Body<'_>> {
         let bodies = self.body_elements.iter().zip(&self.own);
         let bodies = bodies.filter_map(|(body, own)| {
@@ -176,7 +176,8 @@ impl Model {
             first: joint.first,
             coordinates: joint.kind.coordinates,
         });
-        let mut all: Vec<Body> = bodies.chain(joints).collect();
+        let all = bodies.chain(joints);
+        let mut all: Vec<Body> = all.filter(|body| !body.coordinates.is_empty()).collect();
         all.sort_by_key(|body| body.first);
         all
     }

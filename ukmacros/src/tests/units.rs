@@ -111,6 +111,11 @@ fn multipliers_do_work_on_their_rows() {
         tree { axle: hinge(ground.at([0, 0, 0]), b.at([0, 0, 0]), [0, 0.6, 0.8]) } \
         holonomic { on: hinge(b.at([1, 0, 0]), c.at([0, 0, 0]), [0, 0, 1]), motor: drive(ground, b, [0, 0.6, 0.8], 2 * t), next: drive(b, c, [0, 0, 1], 2 * t) }";
     assert_eq!(told(space), ", N, N, N, N m, N m, N m, N m");
+    // Rows that are left out leave those behind them their units.
+    let planar = "bodies { spatial b { mass: 1 [kg], inertia: [1, 1, 1] } spatial c { mass: 1, inertia: [1, 1, 1] } spatial d { mass: 1, inertia: [1, 1, 1] } } \
+        tree { o: hinge(ground.at([0, 0, 0]), b.at([0, 0, 0]), [0, 1, 2]) p: hinge(b.at([1, 0, 0]), c.at([0, 0, 0]), [0, 1, 2]) s: slider(ground.at([0, 0, 0]), d.at([0, 0, 0]), [0, 0, 1]) } \
+        holonomic { q: hinge(ground.at([1.5, 0, 0]), c.at([1, 0, 0]), [0, 1, 2]), turn: o.angle = 1 [rad/s] * t, lift: s.slide = 1 [m/s] * t }";
+    assert_eq!(told(planar), ", , , N m, N");
     let unknown = "coords { x [m], y } mass { x: 1, y: 1 } holonomic { c: y = sq(y) }";
     assert_eq!(told(unknown), "");
 }

@@ -1,8 +1,8 @@
-//! What holds wherever bodies can be. A hinge that closes a planar loop of bodies in space keeps them in the plane, which the other joints
-//! of the tree do already: some of its rows are 0 = 0, but for what rounding makes of sines and directions.
+//! Rows of joints that hold wherever bodies can be. A hinge that closes a planar loop of bodies in space keeps them in the plane, which the
+//! other joints of the tree do already: some of its rows are 0 = 0, but for what rounding makes of sines and directions, and of rounding
+//! alone a row would be made like any other.
 //!
-//! A function that vanishes at random states vanishes everywhere. Rows that do so are left out, for of rounding alone a row would be made
-//! like any other; what does so with all of its rows is a mistake.
+//! A row of products, roots, sines and cosines that vanishes at random states vanishes everywhere.
 
 use super::Lowering;
 use crate::expr::graph::{Id, Node};
@@ -15,45 +15,90 @@ const STATES: usize = 3;
 const CHANGED: f64 = 0.3;
 
 impl Lowering<'_> {
-    /// Leaves out the rows that always hold, and makes 0 = 0 of what always holds as a whole. Reports what does so with default
-    /// parameters alone.
+    /// Leaves out the rows of joints that always hold; where all rows of a joint do, they become 0 = 0. Reports joints that do so with
+    /// default parameters alone.
     pub(super) fn leave_out_what_always_holds(&mut self) {
         let mut random = Random::new(11);
-        let defaults = self.defaults.clone();
-        let given = |random: &mut Random| -> Vec<f64> {
-            let known = defaults.iter().map(|x| match x.is_nan() {
-                true => random.positive(),
-                false => *x,
-            });
-            known.collect()
-        };
-        let mut rows: Vec<usize> = (0..self.constraints.len()).collect();
-        let mut exact = vec![true; rows.len()];
+        let mut exact = vec![true; self.constraints.len()];
+        let mut rows = self.of_joints();
         for _ in 0..STATES {
-            let params = given(&mut random);
+            let params = self.parameters(0.0, &mut random);
             let found = self.vanish(&rows, &params, &mut random);
             found.iter().for_each(|(row, x)| exact[*row] &= *x == 0.0);
             rows = found.into_iter().map(|(row, _)| row).collect();
         }
-        // What is made of pieces may vanish on one of them.
-        let parts = |id: &Id| {
-            let pieces = [Func::Abs, Func::Sign, Func::Min, Func::Max];
-            matches!(self.graph.node(*id), Node::Call(func, _) if pieces.contains(func))
-        };
-        let all = |row: &usize| self.graph.reachable(&[self.constraints[*row].phi]);
-        rows.retain(|row| !all(row).iter().any(parts));
+        rows.retain(|row| self.is_in_one_piece(self.constraints[*row].phi));
         let mut always = rows.clone();
         for _ in 0..STATES {
-            let mut params = given(&mut random);
-            params
-                .iter_mut()
-                .for_each(|x| *x += CHANGED * random.signed() * if *x == 0.0 { 1.0 } else { *x });
+            let params = self.parameters(CHANGED, &mut random);
             let found = self.vanish(&always, &params, &mut random);
             always = found.into_iter().map(|(row, _)| row).collect();
         }
-        rows.retain(|row| !always.contains(row) && !exact[*row]);
+        rows.retain(|row| !always.contains(row));
+        self.report_defaults(&rows, &exact);
+        self.leave_out(&always);
+    }
+
+    /// The rows of joints between bodies.
+    fn of_joints(&self) -> Vec<usize> {
+        let joints = self.known.values().filter(|known| known.load.is_some());
+        let mut rows: Vec<usize> = joints
+            .flat_map(|known| known.rows.iter().flatten().copied())
+            .collect();
+        rows.sort_unstable();
+        rows
+    }
+
+    /// Whether states enter `phi` by arithmetic, roots, sines and cosines alone: other functions may have pieces, or be flat but for rounding.
+    fn is_in_one_piece(&self, phi: Id) -> bool {
+        let g = &self.graph;
+        g.reachable(&[phi]).iter().all(|id| match g.node(*id) {
+            Node::Call(Func::Sqrt | Func::Sin | Func::Cos, _) => true,
+            Node::Call(..) | Node::Select(_) => g.uses(*id).constant(),
+            _ => true,
+        })
+    }
+
+    /// Parameters that differ from their defaults by shares up to `change`; where there is none they are any.
+    fn parameters(&self, change: f64, random: &mut Random) -> Vec<f64> {
+        let defaults = self.defaults.iter();
+        let params = defaults.map(|x| match *x {
+            x if x.is_nan() => random.positive(),
+            0.0 => change * random.signed(),
+            x => x * (1.0 + change * random.signed()),
+        });
+        params.collect()
+    }
+
+    /// Those of `rows` that vanish but for rounding at a random state, with their values.
+    fn vanish(&self, rows: &[usize], params: &[f64], random: &mut Random) -> Vec<(usize, f64)> {
+        let roots: Vec<Id> = rows.iter().map(|row| self.constraints[*row].phi).collect();
+        if roots.is_empty() {
+            return Vec::new();
+        }
+        let mut at = Probe::signed(params, self.model.coord_elements.len(), random);
+        for first in self.model.quaternions() {
+            let own = &mut at.q[first..first + 4];
+            let length = own.iter().fold(0.0_f64, |sum, x| sum.hypot(*x));
+            own.iter_mut().for_each(|x| *x /= length);
+        }
+        let mut sweep = Sweep::new(&self.graph, &roots);
+        let t = random.signed();
+        let point = Point { t, ..at.point() };
+        let bounds =
+            Shake::bounds(|shake| sweep.shaken(&self.graph, &point, &mut |x| shake.change(x)));
+        let found = rows.iter().zip(bounds);
+        let found = found.filter(|(_, (x, bound))| bound.is_finite() && x.abs() <= *bound);
+        found.map(|(row, (x, _))| (*row, x)).collect()
+    }
+
+    /// Reports joints whose `rows` vanish with default parameters alone, unless they are `exact` zeros.
+    fn report_defaults(&self, rows: &[usize], exact: &[bool]) {
         let whole = |row: &usize| self.constraints[*row].item.whole();
         for own in rows.chunk_by(|a, b| whole(a) == whole(b)) {
+            if own.iter().all(|row| exact[*row]) {
+                continue;
+            }
             let names: Vec<String> = own
                 .iter()
                 .map(|row| self.constraints[*row].item.text())
@@ -66,27 +111,9 @@ impl Lowering<'_> {
             );
             self.diag.error(self.constraints[own[0]].loc, message);
         }
-        self.leave_out(&always);
     }
 
-    /// Those of `rows` that vanish but for rounding at a random state, with their values.
-    fn vanish(&self, rows: &[usize], params: &[f64], random: &mut Random) -> Vec<(usize, f64)> {
-        let roots: Vec<Id> = rows.iter().map(|row| self.constraints[*row].phi).collect();
-        if roots.is_empty() {
-            return Vec::new();
-        }
-        let at = Probe::signed(params, self.model.coord_elements.len(), random);
-        let mut sweep = Sweep::new(&self.graph, &roots);
-        let t = random.signed();
-        let point = Point { t, ..at.point() };
-        let bounds =
-            Shake::bounds(|shake| sweep.shaken(&self.graph, &point, &mut |x| shake.change(x)));
-        let found = rows.iter().zip(bounds);
-        let found = found.filter(|(_, (x, bound))| x.abs() <= *bound);
-        found.map(|(row, (x, _))| (*row, x)).collect()
-    }
-
-    /// Takes those of `rows` away that belong to a constraint which has others; the others become 0 = 0.
+    /// Takes those of `rows` away that belong to a joint which has others; the others become 0 = 0.
     fn leave_out(&mut self, rows: &[usize]) {
         if rows.is_empty() {
             return;
@@ -97,25 +124,27 @@ impl Lowering<'_> {
         let mut place: Vec<Option<usize>> = (0..self.constraints.len()).map(Some).collect();
         for known in self.known.values() {
             let own: Vec<usize> = known.rows.iter().flatten().copied().collect();
-            if own.iter().any(|row| !rows.contains(row)) {
-                let left = own.into_iter().filter(|row| rows.contains(row));
-                left.for_each(|row| place[row] = None);
+            if own.iter().all(|row| rows.contains(row)) {
+                continue;
+            }
+            let (left, kept): (Vec<usize>, Vec<usize>) =
+                own.into_iter().partition(|row| rows.contains(row));
+            if !left.is_empty() {
+                left.into_iter().for_each(|row| place[row] = None);
+                // Constants of the emitted type stand for rows without a gap.
+                let renumbered = kept.into_iter().enumerate();
+                renumbered.for_each(|(k, row)| self.constraints[row].item.components = vec![k]);
             }
         }
-        let constraints = std::mem::take(&mut self.constraints).into_iter();
-        let mut places = place.iter_mut();
-        for constraint in constraints {
-            match places.next() {
-                Some(place @ Some(_)) => {
-                    *place = Some(self.constraints.len());
+        let constraints = std::mem::take(&mut self.constraints);
+        for (place, constraint) in place.iter_mut().zip(constraints) {
+            match place {
+                None => self.left_out.push(constraint.item.text()),
+                Some(place) => {
+                    *place = self.constraints.len();
                     self.constraints.push(constraint);
                 }
-                _ => self.left_out.push(constraint.item.text()),
             }
-        }
-        if let Some(dimensions) = &mut self.dimensions {
-            let mut kept = place.iter().map(Option::is_some);
-            dimensions.rows.retain(|_| kept.next().unwrap_or(true));
         }
         for row in self.known.values_mut().flat_map(|known| &mut known.rows) {
             *row = row.and_then(|row| place[row]);

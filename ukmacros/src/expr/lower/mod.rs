@@ -165,7 +165,7 @@ struct Lowering<'m> {
     /// Names of constraints, outputs and integrals.
     results: HashMap<String, NoValue>,
     constraints: Vec<Constraint>,
-    /// Rows that always hold, and so are none of the constraints.
+    /// Rows of joints that always hold, and so are none of the constraints.
     left_out: Vec<String>,
     /// Whether all constraints are there.
     constrained: bool,
@@ -228,7 +228,8 @@ impl<'m> Lowering<'m> {
                 self.equation(equation, kind, scope, &mut names);
             });
         }
-        if self.diag.is_empty() {
+        // Where dimensions are looked at numbers have no values, and all rows stay.
+        if self.diag.is_empty() && self.dimensions.is_none() {
             self.leave_out_what_always_holds();
         }
         self.constrained = true;

@@ -21,7 +21,7 @@ pub(super) struct Known {
     /// What a joint of several rows calls them.
     pub(super) names: Vec<&'static str>,
     /// The load of a joint between bodies.
-    load: Option<Load>,
+    pub(super) load: Option<Load>,
 }
 
 /// What the load of a joint on its second body is read from.
@@ -224,37 +224,46 @@ impl<'m> Lowering<'m> {
 
     /// The force of a joint between points on its second body; of any other constraint its multipliers, in the shape of its equation.
     fn whole(&mut self, text: &str, arg: &Expr) -> Value {
-        let Some(rows) = self.all_rows(text, arg) else {
-            return Value::Error;
-        };
         let Some(Known {
-            shape, names, load, ..
+            rows,
+            shape,
+            names,
+            load,
         }) = self.known.get(text)
         else {
             return Value::Error;
         };
         let shape = shape.clone();
-        let Some(Load { pushes, .. }) = load.clone().filter(|load| load.at.is_some()) else {
-            let multipliers = rows.iter().map(|row| Symbol::Multiplier(*row));
-            let multipliers: Vec<Id> = multipliers
-                .map(|symbol| self.graph.symbol(symbol))
-                .collect();
-            return Value::new(&shape, multipliers);
-        };
-        if !pushes.is_empty() {
-            return Value::vector(self.pushed(&pushes, &rows));
-        }
+        let load = load.clone().filter(|load| load.at.is_some());
+        let pushes = load.as_ref().map_or(&[][..], |load| &load.pushes);
         // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
-        let components = rows.into_iter().take(axes).map(Symbol::Multiplier);
-        let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
-        Value::vector(components)
+        let count = match (&load, pushes.len()) {
+            (None, _) => rows.len(),
+            (Some(_), 0) => axes,
+            (Some(_), pushes) => pushes,
+        };
+        let Some(rows) = self.first_rows(text, count, arg) else {
+            return Value::Error;
+        };
+        if !pushes.is_empty() {
+            return Value::vector(self.pushed(pushes, &rows));
+        }
+        let multipliers = rows.into_iter().map(Symbol::Multiplier);
+        let multipliers: Vec<Id> = multipliers
+            .map(|symbol| self.graph.symbol(symbol))
+            .collect();
+        match load {
+            None => Value::new(&shape, multipliers),
+            Some(_) => Value::vector(multipliers),
+        }
     }
 
-    /// The rows of a constraint, none of which may be left out where its reaction is asked for: it would be any.
-    fn all_rows(&mut self, text: &str, arg: &Expr) -> Option<Vec<usize>> {
+    /// The first rows of a constraint, none of which may be left out where its reaction is asked for: it would be any.
+    fn first_rows(&mut self, text: &str, count: usize, arg: &Expr) -> Option<Vec<usize>> {
         let Known { rows, names, .. } = self.known.get(text)?;
+        let rows: Vec<Option<usize>> = rows.iter().copied().take(count).collect();
         if let Some(k) = rows.iter().position(Option::is_none) {
             let left = names
                 .get(k)
@@ -265,7 +274,7 @@ impl<'m> Lowering<'m> {
             self.error(arg.loc, message);
             return None;
         }
-        rows.iter().copied().collect()
+        rows.into_iter().collect()
     }
 
     /// The force of these rows, the first of which push so.
@@ -299,7 +308,7 @@ impl<'m> Lowering<'m> {
     /// The moment of a joint, or of a row of it, on its second body, about its point of that body: in the plane a number.
     fn moment(&mut self, text: &str, row: Option<usize>, arg: &Expr) -> Value {
         let rows = match row {
-            None => self.all_rows(text, arg),
+            None => self.first_rows(text, usize::MAX, arg),
             Some(row) => Some(vec![row]),
         };
         let (Some(rows), Some(Known { load, .. })) = (rows, self.known.get(text)) else {

@@ -94,7 +94,9 @@ pub(crate) fn units(decl: &Declaration, model: &Model, system: &mut System, diag
         None => NamedUnit::default(),
     });
     system.units = params.collect();
-    let efforts = (0..system.constraints.len()).map(|row| match rows.get(row) {
+    let all = measured.constraints.iter().enumerate();
+    let kept = all.filter(|(_, row)| !system.left_out.contains(&row.item.text()));
+    let efforts = kept.map(|(row, _)| match rows.get(row) {
         Some(Known(dimension, _)) => dimension.effort(),
         _ => String::new(),
     });
