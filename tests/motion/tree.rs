@@ -449,6 +449,7 @@ macro_rules! linkage_on_a_trunk {
 linkage_on_a_trunk! { FloatingHinge, {}, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
 linkage_on_a_trunk! { FloatingBall, {}, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
 linkage_on_a_trunk! { FloatingCylinder, {}, { q: cylinder(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
+linkage_on_a_trunk! { FloatingPoints, {}, { q: rod.at([0.7, 0, 0]) = rocker.at([0.5, 0, 0]) } }
 linkage_on_a_trunk! { HungHinge, { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
 linkage_on_a_trunk! { HungBall, { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
 
@@ -554,6 +555,12 @@ fn a_loop_of_a_plane_on_a_trunk_moves_however_it_is_closed() {
     assert_all_close(
         "ball",
         &places(&FloatingBall::default(), &open),
+        &floating,
+        1e-7,
+    );
+    assert_all_close(
+        "points",
+        &places(&FloatingPoints::default(), &open),
         &floating,
         1e-7,
     );

@@ -1,10 +1,11 @@
-//! Rows of joints that hold wherever bodies can be. A hinge that closes a planar loop of bodies in space keeps them in the plane, which the
-//! other joints of the tree do already: some of its rows are 0 = 0, but for what rounding makes of sines and directions, and of rounding
-//! alone a row would be made like any other.
+//! Rows of joints, and of equations of points, that hold wherever bodies can be. A hinge that closes a planar loop of bodies in space
+//! keeps them in the plane, which the other joints of the tree do already: some of its rows are 0 = 0, but for what rounding makes of
+//! sines and directions, and of rounding alone a row would be made like any other.
 //!
 //! A row of products, roots, sines and cosines that vanishes at random states vanishes everywhere.
 
 use super::Lowering;
+use super::reactions::Known;
 use crate::expr::graph::{Id, Node};
 use crate::expr::probe::{Probe, Random, Shake};
 use crate::expr::{Func, Sweep, eval::Point};
@@ -15,12 +16,12 @@ const STATES: usize = 3;
 const CHANGED: f64 = 0.3;
 
 impl Lowering<'_> {
-    /// Leaves out the rows of joints that always hold; where all rows of a joint do, they become 0 = 0. Reports joints that do so with
-    /// default parameters alone.
+    /// Leaves out rows that always hold; where all rows of a constraint do, they become 0 = 0. Reports constraints that do so with default
+    /// parameters alone.
     pub(super) fn leave_out_what_always_holds(&mut self) {
         let mut random = Random::new(11);
         let mut exact = vec![true; self.constraints.len()];
-        let mut rows = self.of_joints();
+        let mut rows = self.that_may_always_hold();
         for _ in 0..STATES {
             let params = self.parameters(0.0, &mut random);
             let found = self.vanish(&rows, &params, &mut random);
@@ -39,17 +40,27 @@ impl Lowering<'_> {
         self.leave_out(&always);
     }
 
-    /// The rows of joints between bodies.
-    fn of_joints(&self) -> Vec<usize> {
-        let joints = self.known.values().filter(|known| known.load.is_some());
-        let mut rows: Vec<usize> = joints
-            .flat_map(|known| known.rows.iter().flatten().copied())
-            .collect();
-        rows.sort_unstable();
-        rows
+    /// The rows of joints between bodies, and of equations of vectors where there are bodies, which join them as well; not those of
+    /// equations whose symbols tell that they always hold: these are mistakes.
+    fn that_may_always_hold(&self) -> Vec<usize> {
+        let vectors = |known: &&Known| known.shape.len() == 1 && !self.model.bodies.is_empty();
+        let written = |row: &usize| !self.graph.is_zero(self.constraints[*row].phi);
+        let known = self.known.values();
+        let (joints, others): (Vec<&Known>, Vec<&Known>) =
+            known.partition(|known| known.load.is_some());
+        let rows = |known: &Known| known.rows.clone().into_iter().flatten();
+        let joints = joints.into_iter().flat_map(rows);
+        let others = others
+            .iter()
+            .filter(|known| vectors(known))
+            .flat_map(|known| rows(known));
+        let mut all: Vec<usize> = joints.chain(others.filter(written)).collect();
+        all.sort_unstable();
+        all
     }
 
-    /// Whether states enter `phi` by arithmetic, roots, sines and cosines alone: other functions may have pieces, or be flat but for rounding.
+    /// Whether states enter `phi` by arithmetic, roots, sines and cosines alone: other functions may have pieces, or be flat but for
+    /// rounding.
     fn is_in_one_piece(&self, phi: Id) -> bool {
         let g = &self.graph;
         g.reachable(&[phi]).iter().all(|id| match g.node(*id) {
@@ -92,7 +103,7 @@ impl Lowering<'_> {
         found.map(|(row, (x, _))| (*row, x)).collect()
     }
 
-    /// Reports joints whose `rows` vanish with default parameters alone, unless they are `exact` zeros.
+    /// Reports constraints whose `rows` vanish with default parameters alone, unless they are `exact` zeros.
     fn report_defaults(&self, rows: &[usize], exact: &[bool]) {
         let whole = |row: &usize| self.constraints[*row].item.whole();
         for own in rows.chunk_by(|a, b| whole(a) == whole(b)) {
@@ -113,7 +124,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Takes those of `rows` away that belong to a joint which has others; the others become 0 = 0.
+    /// Takes those of `rows` away that belong to a constraint which has others; the others become 0 = 0.
     fn leave_out(&mut self, rows: &[usize]) {
         if rows.is_empty() {
             return;

@@ -17,7 +17,7 @@ pub(super) struct Known {
     /// Nothing for those that always hold.
     pub(super) rows: Vec<Option<usize>>,
     /// The shape of the constraint's equation.
-    shape: Vec<usize>,
+    pub(super) shape: Vec<usize>,
     /// What a joint of several rows calls them.
     pub(super) names: Vec<&'static str>,
     /// The load of a joint between bodies.
