@@ -136,7 +136,7 @@ fn power_is_balanced_where_terms_of_constraints_cancel() {
     for angle in [0.4, 1.0, 2.0] {
         let start = Parallel::default().start("turned", &[("angle", angle)].into());
         let swept = kinematics(
-            &Parallel::default(),
+            Parallel::default(),
             &start.unwrap(),
             &[("h1.angle", angle..angle + 0.1)],
             &[],
