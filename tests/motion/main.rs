@@ -4,6 +4,7 @@
 mod bearings;
 mod branches;
 mod cells;
+mod closed_plane;
 mod crossings;
 mod dips;
 mod failures;

@@ -165,7 +165,7 @@ struct Lowering<'m> {
     /// Names of constraints, outputs and integrals.
     results: HashMap<String, NoValue>,
     constraints: Vec<Constraint>,
-    /// Rows of joints that always hold, and so are none of the constraints.
+    /// Rows that always hold, and so are none of the constraints.
     left_out: Vec<String>,
     /// Whether all constraints are there.
     constrained: bool,

@@ -29,7 +29,7 @@ pub(crate) struct System {
     pub(crate) inertias: Vec<(String, Vec<Id>)>,
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
-    /// Rows of joints that always hold, by their names: they are none of the constraints.
+    /// Rows that always hold, by their names: they are none of the constraints.
     pub(crate) left_out: Vec<String>,
     pub(crate) outputs: Vec<OutputValue>,
     /// What is integrated along with the motion.
