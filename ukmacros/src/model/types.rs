@@ -159,6 +159,26 @@ impl Body<'_> {
 }
 
 impl Model {
+    /// The body at this place of [`Model::body_elements`] and those that it hangs on, up to one that hangs on the ground or on nothing.
+    pub(crate) fn carriers(&self, position: usize) -> impl Iterator<Item = usize> + use<'_> {
+        let parent = |body: &usize| self.joints[self.hung[*body]?].parent;
+        std::iter::successors(Some(position), parent)
+    }
+
+    /// The positions in q of what moves the body at this place of [`Model::body_elements`] on what it hangs on.
+    pub(crate) fn moving(&self, position: usize) -> Range<usize> {
+        let joint = self.hung[position].map(|joint| &self.joints[joint]);
+        let (first, count) = match (self.own[position], joint) {
+            (Some(first), _) => {
+                let kind = self.body_kinds[self.body_elements[position].family];
+                (first, kind.coordinates().len())
+            }
+            (None, Some(joint)) => (joint.first, joint.kind.coordinates.len()),
+            (None, None) => (0, 0),
+        };
+        first..first + count
+    }
+
     /// Bodies with coordinates of their own and joints of the tree that have some, in the order of their coordinates.
     pub(crate) fn owners(&self) -> Vec<Body<'_>> {
         let bodies = self.body_elements.iter().zip(&self.own);

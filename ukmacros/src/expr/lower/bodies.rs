@@ -26,6 +26,8 @@ pub(super) struct Frame {
 }
 
 pub(super) struct Moving {
+    /// Its place among the bodies of the model.
+    pub(super) position: usize,
     pub(super) kind: BodyKind,
     /// The centre of mass in the body's frame.
     pub(super) centre: Vec<Id>,
@@ -354,6 +356,7 @@ impl<'m> Lowering<'m> {
         let moving = match self.model.hung[position] {
             Some(joint) => self.hung(position, joint, c),
             None => Some(Moving {
+                position,
                 kind,
                 reference: c.clone(),
                 centre: c,

@@ -3,6 +3,7 @@
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
 mod acting;
+mod carried;
 
 pub(super) use acting::Acting;
 
@@ -322,6 +323,11 @@ impl<'m> Lowering<'m> {
         if self.allowed_value(rows.clone(), e.loc, env).is_error() {
             return Value::Error;
         }
+        let carrier = self.carrier(&inner);
+        let rows = match &carrier {
+            Some(carrier) => Value::new(rows.shape(), self.at_rest(rows.entries(), carrier)),
+            None => rows,
+        };
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         self.rim(part.name, e.loc, &inner);
@@ -330,6 +336,12 @@ impl<'m> Lowering<'m> {
             let pushes = pushes.iter();
             let pushes = pushes.map(|text| self.written(text, e.loc, &inner).entries().to_vec());
             load.pushes = pushes.collect();
+            if let Some(carrier) = &carrier
+                && load.pushes.is_empty()
+                && load.acts_at_a_point()
+            {
+                load.pushes = self.axes_of(carrier);
+            }
         }
         Value::Joint(Rc::new(Joint { rows, names, load }))
     }

@@ -40,6 +40,11 @@ pub(super) struct Load {
 }
 
 impl Load {
+    /// Whether it is a force at a point, with or without a moment.
+    pub(super) fn acts_at_a_point(&self) -> bool {
+        self.at.is_some()
+    }
+
     /// Whether `place` depends on the coordinates of the body.
     pub(super) fn moves(&self, place: &[Id], g: &Graph) -> bool {
         let own = |id: &Id| match g.node(*id) {

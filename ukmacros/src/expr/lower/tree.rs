@@ -140,17 +140,9 @@ impl Frame {
 
 impl<'m> Lowering<'m> {
     /// A coordinate that the body at `position` moves with, if it moves.
-    pub(super) fn moves_by(&self, mut position: usize) -> Option<usize> {
-        loop {
-            if let Some(first) = self.model.own[position] {
-                return Some(first);
-            }
-            let joint = &self.model.joints[self.model.hung[position]?];
-            if !joint.kind.coordinates.is_empty() {
-                return Some(joint.first);
-            }
-            position = joint.parent?;
-        }
+    pub(super) fn moves_by(&self, position: usize) -> Option<usize> {
+        let mut carriers = self.model.carriers(position);
+        carriers.find_map(|body| self.model.moving(body).next())
     }
 
     /// The frame of the body at `position`, whose centre of mass is at `centre`, which hangs on the joint number `joint`.
@@ -171,6 +163,7 @@ impl<'m> Lowering<'m> {
         let itself = Rc::new(Frame {
             name: body.name.clone(),
             moving: Some(Moving {
+                position,
                 kind,
                 centre: centre.clone(),
                 reference: Vec::new(),
@@ -213,6 +206,7 @@ impl<'m> Lowering<'m> {
         self.hint(&format!("{name}.spin"), &moved.omega);
         self.hint(&format!("{name}.velocity"), &moved.velocity);
         Some(Moving {
+            position,
             kind,
             centre,
             reference,

@@ -72,6 +72,7 @@ impl<'m> Lowering<'m> {
             }
             Meaning::Energy(text) => {
                 let value = self.written(text, e.loc, &inner);
+                let value = self.carried(value, &inner);
                 let velocity = value
                     .entries()
                     .iter()
@@ -91,6 +92,11 @@ impl<'m> Lowering<'m> {
                 if velocity.is_error() {
                     return;
                 }
+                // A force between two points is, along their distance; vectors are in axes of the ground.
+                let (velocity, force) = match velocity.shape() {
+                    [] => (self.carried(velocity, &inner), self.carried(force, &inner)),
+                    _ => (velocity, force),
+                };
                 let last = args.last().map_or(e.loc, |a| a.loc);
                 let force = self.of_shape(&force, velocity.shape(), last);
                 let force = force.unwrap_or_default();
