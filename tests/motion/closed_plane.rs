@@ -33,7 +33,7 @@ four_bar_in_space! { Joined, [0, 1, 2], { q: rod.at([0.7, 0, 0]) = rocker.at([0.
 
 /// The same linkage on a trunk that floats, or hangs on a ball, with a crank that is driven on.
 macro_rules! linkage_on_a_trunk {
-    ($name:ident, { $($hung:tt)* }, { $($closed:tt)* }) => {
+    ($name:ident, $axis:tt, { $($hung:tt)* }, { $($closed:tt)* }) => {
         ukcore::multibody! {
             $name {
                 bodies {
@@ -44,9 +44,9 @@ macro_rules! linkage_on_a_trunk {
                 }
                 tree {
                     $($hung)*
-                    o: hinge(trunk.at([0, 0, 0]), crank.at([0, 0, 0]), [0, 1, 2])
-                    p: hinge(crank.at([0.3, 0, 0]), rod.at([0, 0, 0]), [0, 1, 2])
-                    r: hinge(trunk.at([0.6, 0, 0]), rocker.at([0, 0, 0]), [0, 1, 2])
+                    o: hinge(trunk.at([0, 0, 0]), crank.at([0, 0, 0]), $axis)
+                    p: hinge(crank.at([0.3, 0, 0]), rod.at([0, 0, 0]), $axis)
+                    r: hinge(trunk.at([0.6, 0, 0]), rocker.at([0, 0, 0]), $axis)
                 }
                 force { o.angle: 2.0 }
                 holonomic { $($closed)* }
@@ -55,12 +55,17 @@ macro_rules! linkage_on_a_trunk {
         }
     };
 }
-linkage_on_a_trunk! { FloatingHinge, {}, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
-linkage_on_a_trunk! { FloatingBall, {}, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
-linkage_on_a_trunk! { FloatingCylinder, {}, { q: cylinder(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
-linkage_on_a_trunk! { FloatingPoints, {}, { q: rod.at([0.7, 0, 0]) = rocker.at([0.5, 0, 0]) } }
-linkage_on_a_trunk! { HungHinge, { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
-linkage_on_a_trunk! { HungBall, { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
+linkage_on_a_trunk! { FloatingHinge, [0, 1, 2], {}, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
+linkage_on_a_trunk! { FloatingBall, [0, 1, 2], {}, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
+linkage_on_a_trunk! { FloatingCylinder, [0, 1, 2], {}, { q: cylinder(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
+linkage_on_a_trunk! { FloatingPoints, [0, 1, 2], {}, { q: rod.at([0.7, 0, 0]) = rocker.at([0.5, 0, 0]) } }
+linkage_on_a_trunk! { HungHinge, [0, 1, 2], { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
+linkage_on_a_trunk! { HungBall, [0, 1, 2], { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
+// Of whose rows one would have no gradient in the plane of the ground.
+linkage_on_a_trunk! { UprightFloatingHinge, [0, 0, 1], {}, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 0, 1]) } }
+linkage_on_a_trunk! { UprightFloatingBall, [0, 0, 1], {}, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
+linkage_on_a_trunk! { UprightHungHinge, [0, 0, 1], { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 0, 1]) } }
+linkage_on_a_trunk! { UprightHungBall, [0, 0, 1], { s: ball(ground.at([0, 0, 0]), trunk.at([0, 0, 0])) }, { q: ball(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0])) } }
 
 // A function with pieces, of a parameter.
 four_bar_in_space! { Absolute, [0, abs(g) / g, 2], { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, abs(g) / g, 2]) } }
@@ -176,4 +181,12 @@ fn a_loop_of_a_plane_on_a_trunk_moves_however_it_is_closed() {
     let open = start(&HungHinge::default());
     let hung = places(&HungHinge::default(), &open);
     assert_all_close("hung", &places(&HungBall::default(), &open), &hung, 1e-7);
+    let open = start(&UprightFloatingHinge::default());
+    let floating = places(&UprightFloatingHinge::default(), &open);
+    let found = places(&UprightFloatingBall::default(), &open);
+    assert_all_close("upright", &found, &floating, 1e-7);
+    let open = start(&UprightHungHinge::default());
+    let hung = places(&UprightHungHinge::default(), &open);
+    let found = places(&UprightHungBall::default(), &open);
+    assert_all_close("upright and hung", &found, &hung, 1e-7);
 }

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod bodies;
+mod carried;
 mod closing;
 mod diagnosis;
 mod directions;
