@@ -31,6 +31,26 @@ four_bar_in_space! { Inclined, [0, 1, 2], { q: hinge(rod.at([0.7, 0, 0]), rocker
 four_bar_in_space! { Slipping, [0, 1, 2], { q: cylinder(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
 four_bar_in_space! { Joined, [0, 1, 2], { q: rod.at([0.7, 0, 0]) = rocker.at([0.5, 0, 0]) } }
 
+ukcore::multibody! {
+    /// The same with bars beside each other, whose offsets add up to the same in all digits but the last.
+    Offset {
+        params { g = 9.81 }
+        bodies {
+            spatial crank { mass: 1.0, inertia: [0.01, 0.03, 0.03], centre: [0.15, 0, 0] }
+            spatial rod { mass: 0.7, inertia: [0.01, 0.02, 0.02], centre: [0.35, 0, 0] }
+            spatial rocker { mass: 1.1, inertia: [0.01, 0.03, 0.03], centre: [0.25, 0, 0] }
+        }
+        gravity { [0, -g, 0] }
+        tree {
+            o: hinge(ground.at([0, 0, 0.1]), crank.at([0, 0, 0]), [0, 0, 1])
+            p: hinge(crank.at([0.3, 0, 0.2]), rod.at([0, 0, 0]), [0, 0, 1])
+            r: hinge(ground.at([0.6, 0, 0.3]), rocker.at([0, 0, 0]), [0, 0, 1])
+        }
+        holonomic { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 0, 1]) }
+        start open { o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
+    }
+}
+
 /// The same linkage on a trunk that floats, or hangs on a ball, with a crank that is driven on.
 macro_rules! linkage_on_a_trunk {
     ($name:ident, $axis:tt, { $($hung:tt)* }, { $($closed:tt)* }) => {
@@ -133,6 +153,7 @@ fn a_loop_of_a_plane_in_space_moves_as_in_the_plane() {
     }
     let flat = |part: f64| angles(&Level { part });
     assert_all_close("upright", &angles(&Upright::default()), &flat(1.0), 1e-7);
+    assert_all_close("offset", &angles(&Offset::default()), &flat(1.0), 1e-7);
     let inclined = flat(2.0 / 5.0_f64.sqrt());
     assert_all_close("inclined", &angles(&Inclined::default()), &inclined, 1e-7);
     assert_all_close("sliding", &angles(&Slipping::default()), &inclined, 1e-7);

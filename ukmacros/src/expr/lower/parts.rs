@@ -6,6 +6,7 @@ mod acting;
 mod carried;
 
 pub(super) use acting::Acting;
+use carried::Carrier;
 
 use super::array::{Value, describe};
 use super::bodies::Frame;
@@ -100,6 +101,9 @@ macro_rules! parts {
         }),*];
     };
 }
+
+/// What rounding leaves of offsets, as a share of them.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// What of the rate of the distance of p and q each has by moving in its body.
 const SLIDING_ENDS: &[(&str, &str)] = &[
@@ -328,6 +332,7 @@ impl<'m> Lowering<'m> {
             Some(carrier) => Value::new(rows.shape(), self.at_rest(rows.entries(), carrier)),
             None => rows,
         };
+        let rows = self.without_rounding(rows, &inner, carrier.as_ref());
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         self.rim(part.name, e.loc, &inner);
@@ -344,6 +349,30 @@ impl<'m> Lowering<'m> {
             }
         }
         Value::Joint(Rc::new(Joint { rows, names, load }))
+    }
+
+    /// The rows of a joint, 0 where they are what rounding leaves of offsets along an axis that add up to the same for both of its points.
+    fn without_rounding(
+        &mut self,
+        rows: Value,
+        inner: &Env<'m>,
+        carrier: Option<&Carrier>,
+    ) -> Value {
+        let places = inner.args.iter().filter_map(|(_, value)| match value {
+            Value::Point(point) => Some(point.place.entries()),
+            _ => None,
+        });
+        let places: Vec<Id> = places.flatten().copied().collect();
+        let places = match carrier {
+            Some(carrier) => self.at_rest(&places, carrier),
+            None => places,
+        };
+        let offsets = places.iter().filter_map(|id| self.graph.as_const(*id));
+        let largest = offsets.fold(0.0_f64, |most, x| most.max(x.abs()));
+        rows.map(|row| match self.graph.as_const(row) {
+            Some(left) if left.abs() <= ROUNDED * largest => self.graph.zero(),
+            _ => row,
+        })
     }
 
     /// The bodies that a joint with these arguments is between.
