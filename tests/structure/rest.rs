@@ -1,5 +1,6 @@
 //! Rest positions, against statics.
 
+mod idle;
 mod tops;
 
 use std::f64::consts::TAU;

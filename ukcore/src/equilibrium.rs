@@ -41,8 +41,8 @@ pub enum Stability {
     Unstable,
 }
 
-/// Attempted steps at most.
-const STEPS: usize = 200;
+/// Attempted steps at most: along a stiff spring that turns they are short.
+const STEPS: usize = 1000;
 /// A displacement for differences of forces, as a part of the coordinates, where coordinates are held.
 const DIFFERENCE: f64 = 1e-6;
 /// A displacement for differences of the potential, in the same way, and the share of forces that these are known to.
@@ -67,6 +67,9 @@ const NEAR: f64 = 1e-6;
 /// it was asked to be: else it may have come to another branch.
 const BENT: f64 = 0.5;
 const LONGER: f64 = 2.0;
+/// A stiffness below this part of the largest one may be none, where this part of what the largest one gives is to be gained along it.
+const WEAK: f64 = 1e-2;
+const GAINED: f64 = 0.1;
 /// A stiffness below this part of the largest one is rounding; with coordinates held, of its differences.
 const FLAT: f64 = 1e-13;
 const FLAT_BY_DIFFERENCES: f64 = 1e-8;
@@ -110,18 +113,23 @@ pub fn equilibrium(
         let stiffness = search.stiffness(&here)?;
         let firm = firm.get_or_insert(stiffness.amax());
         *firm = firm.max(here.force.norm() / search.size);
-        let (step, loose) = here.step(&stiffness, search.size).ok_or_else(unfound)?;
+        let step = |damping: f64| here.step(&stiffness, search.size, damping);
+        // So far off that nothing is finite any more there is no rest position.
+        let Some((full, loose)) = step(0.0) else {
+            break;
+        };
         // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
-        let still = step.amax() <= NOWHERE * search.size && here.force.norm() <= first;
+        let still = full.amax() <= NOWHERE * search.size && here.force.norm() <= first;
         if here.is_balanced() || still && loose <= BALANCED * here.parts {
-            search.is_smooth(&here, &step, &stiffness, (first, *firm))?;
+            search.is_smooth(&here, &full, &stiffness, (first, *firm))?;
             let stability = search.stability(&here, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
                 stability,
             });
         }
-        let step = step / (1.0 + damping);
+        let damped = if damping > 0.0 { step(damping) } else { None };
+        let step = damped.map_or(full, |(step, _)| step);
         match search.moved(&here, &step) {
             Ok(there) if there.improves_on(&here) && search.follows(&here, &step, &there) => {
                 here = there;
@@ -218,27 +226,41 @@ impl Place {
     }
 
     /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where
-    /// nothing stiff holds it near. `None` for a stiffness that is not finite.
-    fn step(&self, stiffness: &DMatrix<f64>, size: f64) -> Option<(DVector<f64>, f64)> {
+    /// nothing stiff holds it near. With `damping` it is shorter, and most where it is weak. `None` for a stiffness that is not finite.
+    fn step(
+        &self,
+        stiffness: &DMatrix<f64>,
+        size: f64,
+        damping: f64,
+    ) -> Option<(DVector<f64>, f64)> {
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
         // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
         let sizes = self.extents.iter().zip(self.units.iter());
         let most = sizes.fold(0.0, |s: f64, (extent, unit)| s.max(extent / unit));
         let least = (self.force.amax() / most).max(f64::MIN_POSITIVE);
+        // Along what costs nothing, as a coupler that spins between two balls, the curvature and the share of the force are what other ways
+        // leave there as they bend, as much as the force is over the way: their ratio says nothing. Then as much is to be gained there as
+        // along the stiffest.
+        let force = self.force.norm();
+        let bent = force / size;
+        let gains = |share: f64, curvature: f64| {
+            self.potential.is_some() && share * share * largest > GAINED * force * force * curvature
+        };
         let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
             let mut loose = 0.0_f64;
             for (share, curvature) in shares.iter_mut().zip(curvatures.iter()) {
-                let curved = match curvature.abs() <= FLAT * largest {
-                    true => {
-                        if share.abs() > NEAR * size * curvature.abs() {
+                let curved = match curvature.abs() {
+                    x if x > FLAT * largest && x < WEAK * largest && gains(*share, x) => x + bent,
+                    x if x > FLAT * largest => x,
+                    x => {
+                        if share.abs() > NEAR * size * x {
                             loose = loose.max(share.abs());
                         }
                         largest.max(least)
                     }
-                    false => curvature.abs(),
                 };
-                *share /= curved;
+                *share /= (curved + damping * bent) * (1.0 + damping);
             }
             (shares, loose)
         };
