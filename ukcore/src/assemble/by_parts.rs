@@ -326,20 +326,31 @@ impl<'a> ByParts<'a> {
             }
         }
         met.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        if met.are_many() && !self.lie_apart(part, &met.found) {
-            self.open = true;
-            let near = met.found.swap_remove(0);
-            return vec![self.settled(part, near)];
+        let apart = match part.is_determined() {
+            true => !met.are_many() || self.lie_apart(part, &met.found),
+            false => met.found.is_empty(),
+        };
+        if apart {
+            return met.found;
         }
-        met.found
+        self.open |= part.is_determined();
+        let near = met.found.swap_remove(0);
+        vec![self.settled(part, near)]
+    }
+
+    /// `x` with the unknowns of `part` moved to a solution that keeps what the guess tells of them, where what it does not follows.
+    fn follow(&mut self, part: &Part, x: &[f64]) -> Option<Vec<f64>> {
+        let search = &mut *self.search;
+        search.begun += 1;
+        let places = (x, self.guess);
+        search
+            .manifold
+            .settled(self.at, part, places, &search.untold)
     }
 
     /// The solution that is next to what the guess tells, of those that do not lie apart from this one.
     fn settled(&mut self, part: &Part, near: Found) -> Found {
-        let Search {
-            manifold, untold, ..
-        } = &mut *self.search;
-        let settled = manifold.settled(self.at, part, (&near.x, self.guess), untold);
+        let settled = self.follow(part, &near.x);
         let settled = settled.map(|x| self.found(part, x));
         let nearer = settled.filter(|settled| settled.distance < near.distance);
         nearer.unwrap_or(near)
@@ -370,6 +381,11 @@ impl<'a> ByParts<'a> {
         beginning: usize,
         random: &mut Random,
     ) -> Option<Found> {
+        if beginning == 0
+            && let Some(place) = self.follow(part, x)
+        {
+            return Some(self.found(part, place));
+        }
         let mut place = x.to_vec();
         if let Some(share) = SHAKES.get(beginning) {
             shake(&mut place, &part.unknowns, |j| share * self.extents[j]);

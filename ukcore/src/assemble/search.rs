@@ -110,18 +110,15 @@ impl Search {
         parts(pattern, at.rows(), &self.free)
     }
 
-    /// A solution next to `x`, one of them, that is next to what the guess tells, if there is one.
-    fn settled(&mut self, at: &At<'_, f64>, guess: &[f64], x: Vec<f64>) -> Vec<f64> {
-        let told = |j: &usize| !self.untold.contains(j) && x[*j] != guess[*j];
-        if at.level != Level::Position || !self.free.iter().any(told) {
-            return x;
+    /// A solution next to `x` that keeps what the guess tells, as far as rows let it, where all else follows; if there is something that
+    /// follows, and such a solution is found.
+    fn settled(&mut self, at: &At<'_, f64>, guess: &[f64], x: &[f64]) -> Option<Vec<f64>> {
+        if at.level != Level::Position {
+            return None;
         }
         let whole = Part::whole(at.rows(), self.free.clone());
-        let settled = self.manifold.settled(at, &whole, (&x, guess), &self.untold);
-        let settled = settled.and_then(|settled| self.projected(at, settled));
-        let off = |x: &[f64]| self.distance(&self.free, guess, x);
-        let nearer = settled.filter(|settled| off(settled) < off(&x));
-        nearer.unwrap_or(x)
+        let settled = self.manifold.settled(at, &whole, (x, guess), &self.untold);
+        settled.and_then(|settled| self.projected(at, settled))
     }
 
     /// Σ (Δq √inertia)² of these coordinates from the guess, where it tells of them.
@@ -147,6 +144,9 @@ impl Search {
         if let Some(x) = self.find_by_parts(at, guess) {
             return Ok(x);
         }
+        if let Some(x) = self.settled(at, guess, guess) {
+            return Ok(x);
+        }
         let extents = self.manifold.extents(at, guess);
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
@@ -161,7 +161,10 @@ impl Search {
                 let mut place = guess.to_vec();
                 shake(&mut place, &self.free, |j| share * extents[j]);
                 let Err(cost) = self.manifold.search(at, guess, &mut place) else {
-                    return Ok(self.settled(at, guess, place));
+                    let off = |search: &Self, x: &[f64]| search.distance(&search.free, guess, x);
+                    let settled = self.settled(at, guess, &place);
+                    let nearer = settled.filter(|x| off(self, x) < off(self, &place));
+                    return Ok(nearer.unwrap_or(place));
                 };
                 if cost < least && !even {
                     (least, x) = (cost, place);

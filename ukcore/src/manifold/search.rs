@@ -196,8 +196,8 @@ impl Manifold {
         values.len() >= part.unknowns.len() && least > FLAT * most
     }
 
-    /// A solution of `part` next to `x`, one of them, in which coordinates other than those `untold`, where rows leave them free, have the
-    /// values that they have in `guess`; none where there are no others to follow them.
+    /// A solution of `part` next to `x` in which coordinates other than those `untold`, where rows leave them free, have the values that
+    /// they have in `guess`; none where there are no others to follow them.
     pub(crate) fn settled(
         &mut self,
         at: &At<'_, f64>,
@@ -205,11 +205,12 @@ impl Manifold {
         (x, guess): (&[f64], &[f64]),
         untold: &[usize],
     ) -> Option<Vec<f64>> {
-        if untold.is_empty() {
-            return None;
-        }
         let mut settled = x.to_vec();
         let told = part.unknowns.iter().filter(|j| !untold.contains(j));
+        let count = told.clone().count();
+        if count == 0 || count == part.unknowns.len() {
+            return None;
+        }
         let ease = self.ease().to_vec();
         for j in untold {
             self.newton.acceptance.ease[*j] /= LIGHT;
