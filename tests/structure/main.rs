@@ -21,5 +21,6 @@ mod reactions;
 mod rest;
 mod rough;
 mod starts;
+mod told;
 mod units;
 mod vectors;
