@@ -322,3 +322,48 @@ fn rounding_of_one_part_is_granted_to_no_other() {
         assert!(run.work().rounded > 0, "{far:e}, {method}, {tolerance:e}");
     }
 }
+
+ukcore::multibody! {
+    /// A parallelogram, so that some velocities are zero all the way, with a unit of time that is so many times as long.
+    Paced {
+        params { pace = 1.0 }
+        gravity { [0, -9.81 * sq(pace)] }
+        bodies {
+            for i in 0..2 { planar crank[i] { mass: 1, inertia: 1 / 12.0, centre: [0.5, 0] } }
+            planar coupler { mass: 2, inertia: 0.3 }
+        }
+        holonomic {
+            for i in 0..2 {
+                o[i]: pin(ground.at([i, 0]), crank[i].at([0, 0]))
+                p[i]: pin(crank[i].at([1, 0]), coupler.at([i - 0.5, 0]))
+            }
+        }
+        start go(speed = 0.0) { crank[0].angle = -0.4; dot(crank[0].angle) = speed; crank[1].angle near -0.4; coupler.angle near 0.0 }
+    }
+}
+
+/// Nothing is said of velocities that are zero: they are known as the others are, in seconds as in microseconds.
+#[test]
+fn steps_do_not_depend_on_the_unit_of_time() {
+    for speed in [0.0, 2.0] {
+        let run = |pace: f64| {
+            let mechanism = Paced { pace }.prepared();
+            let start = mechanism
+                .start("go", &[("speed", speed * pace)].into())
+                .expect("a start");
+            let run = Simulation::new(mechanism).tolerance(1e-11).start(start);
+            run.at(vec![2.0 / pace]).until(2.0 / pace).expect("a run")
+        };
+        let usual = run(1.0);
+        let angle = |run: &Trajectory| run.last().expect("a sample").q[2];
+        for pace in [1e-3, 1e3, 1e6, 1e9] {
+            let paced = run(pace);
+            let (evaluations, most) = (paced.work().evaluations, usual.work().evaluations);
+            assert!(
+                2 * evaluations <= 3 * most,
+                "{pace}: {evaluations} instead of {most}"
+            );
+            assert!((angle(&paced) - angle(&usual)).abs() < 1e-8, "{pace}");
+        }
+    }
+}

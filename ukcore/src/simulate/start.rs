@@ -157,18 +157,23 @@ impl Simulation {
     }
 
     /// What velocities that are less count as, measured, in a run over the time `span`: `size` in a unit of time, but no more than what the
-    /// motion has at its start, or gets to within `size` by its acceleration there, or needs to go that far at all.
+    /// motion has at its start, or gets to within `size` by its acceleration there, or needs to go that far at all; and no less than a
+    /// small part of these, as the unit of time may be long beside the motion.
     fn speed(&self, size: f64, measure: &Measure, [q, v]: [&[f64]; 2], span: f64) -> f64 {
-        let known = measure.size(v).max(size / span.abs());
-        let start = self.start.as_ref().filter(|_| known < size);
+        let moving = measure.size(v);
+        let start = self.start.as_ref().filter(|_| moving < size);
         let Some(State { t, .. }) = start else {
-            return size;
+            return size.max(FAST * moving);
         };
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(&self.mechanism, self.solver_options());
         // Where there is none, nothing is known.
         match solver.acceleration(*t, q, v, &mut acceleration) {
-            Ok(()) => size.min(known.max((size * measure.size(&acceleration)).sqrt())),
+            Ok(()) => {
+                let gained = (size * measure.size(&acceleration)).sqrt();
+                let known = moving.max(size / span.abs()).max(gained);
+                size.min(known).max(FAST * gained)
+            }
             Err(_) => size,
         }
     }
@@ -187,6 +192,9 @@ impl Simulation {
         }
     }
 }
+
+/// Velocities count as no less than this part of what a motion begins with, or gains at once.
+const FAST: f64 = 1e-3;
 
 /// Whether velocities are along the constraints but for rounding, or this share of what their rows are where they do not all but vanish.
 fn goes_along(
