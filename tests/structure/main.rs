@@ -14,6 +14,7 @@ mod language;
 mod layers;
 mod loads;
 mod machines;
+mod massless;
 mod modes;
 mod nearest;
 mod parts;

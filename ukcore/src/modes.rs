@@ -11,6 +11,7 @@ use nalgebra::{ColPivQR, Complex, DMatrix, DVector, Dyn};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::linearise::Linearisation;
+use crate::measure::Measure;
 use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
@@ -21,8 +22,10 @@ use crate::spectrum::eigenvalues;
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
 pub(crate) const INDEPENDENT: f64 = 1e-9;
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
-/// was found by iteration.
+/// was found by iteration; and what is nearer to rest than this share of its size.
 const REST: f64 = 1e-9;
+/// Coordinates are known to this share of the largest: of a mechanism that is far from the origin angles are known to no more.
+const ROUNDED: f64 = 1e-12;
 /// What rounding may have changed in the linearised motion, as a part of it.
 const ROUNDING: f64 = 1e-14;
 
@@ -75,8 +78,8 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
 pub(crate) fn linear_motion(mech: &Prepared, state: &State) -> Result<(Vec<Mode>, bool), Error> {
     let found = Linearisation::at(mech, state)?;
     let units = units(mech, state);
-    steady(mech, &found, state, &units)?;
     let (flow, pace) = flow(&found, &units);
+    steady(mech, &found, state, &units, (&flow, pace))?;
     let tangent = tangent(mech, state, &units, pace);
     if tangent.ncols() == 0 {
         return Ok((Vec::new(), false));
@@ -374,12 +377,15 @@ pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> 
     DMatrix::from_vec(m, n, jacobian)
 }
 
-/// No coordinate counts as lighter than this share of the heaviest, as one may be whose inertia vanishes at some states.
-const LIGHTEST: f64 = 1e-12;
+/// No coordinate counts as lighter than this share of the heaviest, by the roots of inertias, as one may be whose inertia vanishes at some
+/// states.
+const LIGHTEST: f64 = 1e-6;
 
-/// What coordinates are measured by at `state`: 1/√M_jj, with M_jj at least [`LIGHTEST`] times the largest; 1 where there is no inertia at
-/// all. Those of a [quaternion](quaternions) have one unit, by the mean inertia of the directions in which it turns, so that it does not
-/// depend on the orientation by which numbers the body is where it is.
+/// What coordinates are measured by at `state`: 1/√M_jj. Those of a [quaternion](quaternions) have one unit, by the mean inertia of the
+/// directions in which it turns, so that it does not depend on the orientation by which numbers the body is where it is. By the
+/// [`Measure`], which makes coordinates of different units comparable, none is lighter than [`LIGHTEST`] says, and one without inertia is
+/// as heavy as the heaviest that shares a row of A with it, or as any: by a number that did not change with the units it would be next to
+/// nothing beside others in some of them, and these beside it in others.
 pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
     let mass = mass_matrix(mech, state);
     let mut inertia = mass.diagonal();
@@ -388,11 +394,22 @@ pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
         let mean = whole / (all.len() - 1) as f64;
         all.iter().for_each(|j| inertia[*j] = mean);
     }
-    let heaviest = inertia.max();
-    inertia.map(|m| match m > 0.0 {
-        true => m.max(LIGHTEST * heaviest).sqrt().recip(),
-        false => 1.0,
-    })
+    let measure = DVector::from_vec(Measure::at(mech, state.t, [&state.q, &state.v]).scale);
+    let own = inertia.map(|m| m.max(0.0).sqrt()).component_mul(&measure);
+    let heaviest = or_one(own.amax());
+    let structure = &mech.spec().structure;
+    let beside = |j: usize| {
+        let rows = structure.jacobian_pattern.iter().filter(|(_, i)| *i == j);
+        let others = rows.flat_map(|(c, _)| structure.in_row(*c));
+        others.fold(0.0_f64, |most, i| most.max(own[i]))
+    };
+    let roots = own.map_with_location(|j, _, root| match root > 0.0 {
+        true => root,
+        false => Some(beside(j))
+            .filter(|root| *root > 0.0)
+            .unwrap_or(heaviest),
+    });
+    measure.zip_map(&roots, |unit, root| unit / root.max(LIGHTEST * heaviest))
 }
 
 /// A product with M is none below this share of what its factors could make.
@@ -494,34 +511,34 @@ pub(crate) fn pivoted(rows: &DMatrix<f64>) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>
     (decomposed, pivots.collect())
 }
 
-/// Whether no coordinate accelerates, beside what accelerations here are made up of.
+/// Whether no coordinate accelerates, beside what accelerations here are made up of: `flow`, by times of which `pace` are a second.
 fn steady(
     mech: &Prepared,
     found: &Linearisation,
     state: &State,
     units: &DVector<f64>,
+    (flow, pace): (&DMatrix<f64>, f64),
 ) -> Result<(), Error> {
-    let n = mech.spec().n();
-    let parts = |i: usize, columns: &[f64], by: &[f64]| -> f64 {
-        // What is nearer to rest than a billionth of a metre or radian is there.
-        let products = by
-            .iter()
-            .enumerate()
-            .map(|(j, x)| x.abs().max(1.0) * columns[j * n + i]);
-        products.map(f64::abs).sum()
-    };
-    let sizes = (0..n).map(|i| {
-        let by_position = parts(i, &found.by_position, &state.q);
-        (by_position + parts(i, &found.by_velocity, &state.v)) / units[i]
+    let (n, State { t, q, v }) = (mech.spec().n(), state);
+    // A way that takes the mechanism into another shape: a radian, or as far as that takes what turns; the unit of length where no
+    // constraint tells any.
+    let measure = Measure::at(mech, *t, [q, v]);
+    let size = measure.size(q);
+    let way = measure.reach(mech, *t, [q, v], size, REST).unwrap_or(1.0);
+    let least = (REST * way).max(ROUNDED * size);
+    let off = DVector::from_fn(2 * n, |k, _| {
+        let j = k % n;
+        let own = if k < n { q[j] } else { v[j] / pace };
+        (REST * own.abs()).max(least * measure.scale[j]) / units[j]
     });
+    let parts = flow.rows(n, n).abs() * off * (pace * pace);
     // Forces of constraints balance others.
-    let solved = Solver::new(mech, SolverOptions::default()).solve(state.t, &state.q, &state.v)?;
-    let ideal = solved.ideal_force.iter().zip(units.iter());
-    let ideal = ideal.map(|(force, unit)| (force * unit).abs());
-    let size = sizes.chain(ideal).fold(0.0, f64::max);
+    let solved = Solver::new(mech, SolverOptions::default()).solve(*t, q, v)?;
+    let ideal = DVector::from_vec(solved.ideal_force).component_mul(units);
+    let left = parts.amax().max(REST * ideal.amax());
     let accelerations = found.acceleration.iter().zip(units.iter());
     for (i, (a, unit)) in accelerations.enumerate() {
-        if (a / unit).abs() > REST * size {
+        if (a / unit).abs() > left {
             let name = mech.spec().coords[i];
             let mut reason = format!(
                 "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
