@@ -375,3 +375,31 @@ fn an_idle_spin_is_told_once_and_is_no_other_way_to_put_a_linkage_together() {
     let shut = at_rest(&[door.w / 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
     assert!(diagnose(&door, &shut).unwrap().idle.is_empty());
 }
+
+/// A board on two wheels that turn under it and do not slide sideways, by bodies and under a tree.
+macro_rules! snakeboard {
+    ($name:ident, $block:ident, $turned:ident) => {
+        ukcore::multibody! {
+            $name {
+                params { l = 0.3 }
+                bodies { planar board { mass: 4.0, inertia: 0.4 } for i in 0..2 { planar wheel[i] { mass: 0.2, inertia: 0.02 } } }
+                $block { for i in 0..2 { q[i]: pin(board.at([l - 2 * i * l, 0]), wheel[i].at([0, 0])) } }
+                nonholonomic { for i in 0..2 { keel[i]: inner(wheel[i].along([0, 1]), dot(wheel[i].centre)) = 0 } }
+                start bent { board.x = 0; board.y = 0; board.angle = 0; $turned[0].angle = 0.3; $turned[1].angle = -0.25 }
+            }
+        }
+    };
+}
+snakeboard! { Boarded, holonomic, wheel }
+snakeboard! { Treed, tree, q }
+
+/// A wheel that steers hangs on its board alone: what keeps it from sliding leaves it any place.
+#[test]
+fn a_wheel_that_steers_is_not_idle() {
+    for mechanism in [Boarded::default().prepared(), Treed::default().prepared()] {
+        let start = mechanism.start("bent", &[].into()).unwrap();
+        let diagnosis = diagnose(&mechanism, &start).unwrap();
+        assert_eq!(diagnosis.degrees_of_freedom, 3);
+        assert!(diagnosis.idle.is_empty(), "{diagnosis}");
+    }
+}

@@ -243,7 +243,8 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
             |c: &usize| of(*c).any(|j| body.has(j)) && lengths.iter().all(|(row, _)| row != c);
         // What it shares rows with: other bodies, or the ground.
         let mut neighbours: BTreeSet<Option<usize>> = BTreeSet::new();
-        for row in (0..spec.m()).filter(joins) {
+        // Nonholonomic rows leave it any place.
+        for row in (0..spec.holonomic).filter(joins) {
             let others = of(row).filter(|j| !body.has(*j));
             let first = |j: usize| {
                 bodies
