@@ -54,7 +54,7 @@ macro_rules! four_bar {
     ($name:ident, { $($coupler:tt)* }, { $($joints:tt)* }, { $($near:tt)* }) => {
         ukcore::multibody! {
             $name {
-                params { crank = 0.5 [m], coupler = 1.8 [m], rocker = 1.5 [m], span = 2.0 [m], aside = 0.0 [m], m = 1.0 [kg], g = 9.81 [m/s^2] }
+                params { crank = 0.5 [m], coupler = 1.8 [m], rocker = 1.5 [m], span = 2.0 [m], m = 1.0 [kg], g = 9.81 [m/s^2] }
                 bodies {
                     planar a { mass: m, inertia: m * sq(crank) / 12, centre: [crank / 2, 0] }
                     planar c { mass: m, inertia: m * sq(rocker) / 12, centre: [rocker / 2, 0] }
@@ -62,8 +62,8 @@ macro_rules! four_bar {
                 }
                 gravity { [0, -g] }
                 holonomic {
-                    o: pin(ground.at([aside, 0]), a.at([0, 0]))
-                    r: pin(ground.at([aside + span, 0]), c.at([0, 0]))
+                    o: pin(ground.at([0, 0]), a.at([0, 0]))
+                    r: pin(ground.at([span, 0]), c.at([0, 0]))
                     $($joints)*
                 }
                 start tilted { a.angle = 1.0; c.angle near 1.7; $($near)* }

@@ -4,7 +4,7 @@ mod defective;
 
 use tests::{assert_all_close, assert_close, at_rest};
 use ukcore::studies::Mode;
-use ukcore::{Error, Mechanism, State, modes};
+use ukcore::{Error, Mechanism, State, equilibrium, modes};
 
 ukcore::multibody! {
     /// Masses in a row between two walls, with springs between neighbours.
@@ -520,5 +520,44 @@ fn friction_without_a_direction_at_rest_is_told_with_what_helps() {
             "{error}"
         );
         assert!(error.to_string().contains("smooth the length"), "{error}");
+    }
+}
+
+ukcore::multibody! {
+    /// A four-bar linkage with a turning spring between coupler and rocker, `aside` of the origin.
+    Aside {
+        params { crank = 0.5, coupler = 1.8, rocker = 1.5, span = 2.0, aside = 0.0, k = 3.0, g = 9.81 }
+        bodies {
+            planar a { mass: 1, inertia: sq(crank) / 12, centre: [crank / 2, 0] }
+            planar b { mass: 1, inertia: sq(coupler) / 12, centre: [coupler / 2, 0] }
+            planar c { mass: 1, inertia: sq(rocker) / 12, centre: [rocker / 2, 0] }
+        }
+        gravity { [0, -g] }
+        holonomic {
+            o: pin(ground.at([aside, -aside]), a.at([0, 0]))
+            p: pin(a.at([crank, 0]), b.at([0, 0]))
+            q: pin(b.at([coupler, 0]), c.at([rocker, 0]))
+            r: pin(ground.at([aside + span, -aside]), c.at([0, 0]))
+        }
+        forces { turning_spring(b, c, k, 1) }
+        start bent { a.angle = 1; b.angle near 0.5; c.angle near 1.6 }
+    }
+}
+
+/// What `equilibrium` finds has modes, also far from the origin, where it is known to fewer digits.
+#[test]
+fn a_rest_position_far_from_the_origin_has_modes() {
+    let frequency = |aside: f64| {
+        let linkage = Aside {
+            aside,
+            ..Default::default()
+        };
+        let linkage = linkage.prepared();
+        let start = linkage.start("bent", &[].into()).unwrap();
+        let rest = equilibrium(&linkage, &start, &[]).unwrap();
+        modes(&linkage, &rest.state).unwrap()[0].frequency
+    };
+    for aside in [1e3, -1e5, 3e5, -7e5, 1e6] {
+        assert_close("frequency", frequency(aside), frequency(0.0), 1e-5);
     }
 }

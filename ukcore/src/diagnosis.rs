@@ -43,7 +43,7 @@ pub struct Diagnosis {
     /// n less the rank of the holonomic rows, the freedoms of position: more than those of motion where constraints are nonholonomic.
     pub freedoms_of_position: usize,
     /// Bodies between others that can move by themselves while all else stays, as a rod between two balls that spins about its own axis,
-    /// and how many of the freedoms of motion these are.
+    /// and how many of the freedoms of motion these are. What rolls or steers on the ground is not between it and another by that.
     pub idle: Vec<(String, usize)>,
     /// Constraints that follow from those declared before them.
     pub redundant: Vec<Redundant>,
@@ -243,7 +243,7 @@ fn idle(mech: &Prepared, state: &State, rows: &DMatrix<f64>) -> Vec<(String, usi
             |c: &usize| of(*c).any(|j| body.has(j)) && lengths.iter().all(|(row, _)| row != c);
         // What it shares rows with: other bodies, or the ground.
         let mut neighbours: BTreeSet<Option<usize>> = BTreeSet::new();
-        // Nonholonomic rows leave it any place.
+        // Nonholonomic rows leave it any place: by them a wheel that steers is not between its fork and the ground.
         for row in (0..spec.holonomic).filter(joins) {
             let others = of(row).filter(|j| !body.has(*j));
             let first = |j: usize| {

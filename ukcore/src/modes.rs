@@ -24,7 +24,7 @@ pub(crate) const INDEPENDENT: f64 = 1e-9;
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
 /// was found by iteration; and what is nearer to rest than this share of its size.
 const REST: f64 = 1e-9;
-/// Coordinates are known to this share of the largest: of a mechanism that is far from the origin angles are known to no more.
+/// Rest positions are found to this share of the largest coordinate: of a mechanism that is far from the origin angles to no more.
 const ROUNDED: f64 = 1e-12;
 /// What rounding may have changed in the linearised motion, as a part of it.
 const ROUNDING: f64 = 1e-14;
@@ -394,22 +394,26 @@ pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
         let mean = whole / (all.len() - 1) as f64;
         all.iter().for_each(|j| inertia[*j] = mean);
     }
-    let measure = DVector::from_vec(Measure::at(mech, state.t, [&state.q, &state.v]).scale);
-    let own = inertia.map(|m| m.max(0.0).sqrt()).component_mul(&measure);
-    let heaviest = or_one(own.amax());
+    let measure = Measure::at(mech, state.t, [&state.q, &state.v]).scale;
+    let roots = inertia.map(|m| m.max(0.0).sqrt());
+    let heaviest = |all: &mut dyn Iterator<Item = usize>| {
+        let own = all.map(|i| roots[i] * measure[i]);
+        Some(own.fold(0.0, f64::max)).filter(|root| *root > 0.0)
+    };
+    let of_all = heaviest(&mut (0..roots.len())).unwrap_or(1.0);
     let structure = &mech.spec().structure;
     let beside = |j: usize| {
         let rows = structure.jacobian_pattern.iter().filter(|(_, i)| *i == j);
-        let others = rows.flat_map(|(c, _)| structure.in_row(*c));
-        others.fold(0.0_f64, |most, i| most.max(own[i]))
+        heaviest(&mut rows.flat_map(|(c, _)| structure.in_row(*c))).unwrap_or(of_all)
     };
-    let roots = own.map_with_location(|j, _, root| match root > 0.0 {
-        true => root,
-        false => Some(beside(j))
-            .filter(|root| *root > 0.0)
-            .unwrap_or(heaviest),
-    });
-    measure.zip_map(&roots, |unit, root| unit / root.max(LIGHTEST * heaviest))
+    roots.map_with_location(|j, _, root| {
+        let least = if root > 0.0 {
+            LIGHTEST * of_all
+        } else {
+            beside(j)
+        };
+        root.max(least / measure[j]).recip()
+    })
 }
 
 /// A product with M is none below this share of what its factors could make.
