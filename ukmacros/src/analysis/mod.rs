@@ -38,6 +38,8 @@ pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 #[cfg(test)]
 pub(crate) use frame::{Turned, opened, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
+#[cfg(test)]
+pub(crate) use regular::Regular;
 pub(crate) use schedule::{Program, Step};
 #[cfg(test)]
 pub(crate) use share::shared;

@@ -92,11 +92,11 @@ fn multipliers(
         elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));
     }
     let elimination = elimination?;
-    let straight = Straight::new(elimination, &held, &regular.met, system);
+    let straight = Straight::new(elimination, &held, &regular, system);
     let g = &mut system.graph;
     let unique = straight
         .elimination
-        .unique(&straight.met, regular.redundant.excess, &held, g);
+        .unique(&straight.met, &held, &regular, g);
     let multipliers = straight
         .elimination
         .multipliers

@@ -57,16 +57,7 @@ pub(crate) struct Regular {
 
 /// Makes M regular as far as constraints do.
 pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
-    let mut found = Regular {
-        dynamics: d.clone(),
-        added: BTreeMap::new(),
-        pulled: BTreeMap::new(),
-        weights: Vec::new(),
-        rows: Vec::new(),
-        met: Vec::new(),
-        singular: Vec::new(),
-        redundant: Redundant::default(),
-    };
+    let mut found = Regular::of(d.clone());
     let g = &mut system.graph;
     for block in blocks(d, g) {
         let states = States::of(&block, d, &system.defaults, g);
@@ -94,6 +85,20 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
 }
 
 impl Regular {
+    /// Equations to which nothing is done, and nothing of which is in doubt.
+    pub(crate) fn of(dynamics: Dynamics) -> Self {
+        Regular {
+            dynamics,
+            added: BTreeMap::new(),
+            pulled: BTreeMap::new(),
+            weights: Vec::new(),
+            rows: Vec::new(),
+            met: Vec::new(),
+            singular: Vec::new(),
+            redundant: Redundant::default(),
+        }
+    }
+
     /// Why there is no straight line, if M is singular whatever the state.
     pub(crate) fn refusal(&self, names: &[String]) -> Option<String> {
         let list = self.singular.iter().map(|i| format!("`{}`", names[*i]));

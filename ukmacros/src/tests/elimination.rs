@@ -4,7 +4,8 @@ mod mechanisms;
 
 use super::system;
 use crate::analysis::{
-    Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, opened, orders, turned,
+    Dynamics, Further, Pivoting, Regular, Straight, Task, Turned, derive, eliminate, opened,
+    orders, turned,
 };
 use crate::expr::Random;
 use crate::expr::{Point, System, eval};
@@ -117,6 +118,7 @@ impl Tally {
                 .chain(extended)
                 .collect(),
         };
+        let plain = Regular::of(dynamics.clone());
         let mut lines = Vec::new();
         for (of, turned) in &forms {
             let size = of.force.len() + of.rhs.len();
@@ -140,7 +142,7 @@ impl Tally {
                 self.rotated += usize::from(rotated);
                 let elimination = eliminate(&task, order, &mut system.graph);
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
-                lines.push(Straight::new(elimination, &dynamics, &[], &mut system));
+                lines.push(Straight::new(elimination, &dynamics, &plain, &mut system));
                 self.lifted += usize::from(of.force.len() > n);
                 self.turned += usize::from(!turned.is_empty());
                 self.joints += usize::from(turned.rows().next().is_some());
@@ -311,9 +313,10 @@ fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
         turned: &turned,
     };
     let orders = orders(&task, &system.defaults, &system.graph).expect("orders");
+    let plain = Regular::of(dynamics.clone());
     for order in orders {
         let elimination = eliminate(&task, order, &mut system.graph).expect("an elimination");
-        let straight = Straight::new(elimination, &dynamics, &[], &mut system);
+        let straight = Straight::new(elimination, &dynamics, &plain, &mut system);
         for (angle, safe) in [
             (0.0_f64, 1.0),
             (0.4, 1.0),

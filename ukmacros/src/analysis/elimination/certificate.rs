@@ -44,9 +44,10 @@
 //! itself, whose condition is the root of G's, and keeps twice the digits. What depends on parameters only also has to be finite: an
 //! infinite mass would vanish by its reciprocal.
 
-use super::dropping::least;
+use super::dropping::{least, squares};
 use super::{Elimination, Pair, Pivoting, Rotation};
 use crate::analysis::dynamics::Dynamics;
+use crate::analysis::regular::Regular;
 use crate::expr::{Func, Graph, Id, Node, System, common_power};
 use std::collections::{BTreeSet, HashSet};
 
@@ -181,11 +182,11 @@ impl Straight {
         solutions.chain([&mut self.certificate, &mut self.met_too])
     }
 
-    /// Adds the certificate, and enters the names. Of the constraints of `d` those in `met` are checked after the solution.
+    /// Adds the certificate, and enters the names. Of the constraints of `d` those are checked after the solution that `regular` has in doubt.
     pub(crate) fn new(
         mut elimination: Elimination,
         d: &Dynamics,
-        met: &[usize],
+        regular: &Regular,
         system: &mut System,
     ) -> Self {
         let g = &mut system.graph;
@@ -196,16 +197,15 @@ impl Straight {
             .iter()
             .map(|k| elimination.place[k.at]);
         let droppable: Vec<usize> = places.flatten().map(|at| at - n).collect();
-        let met = met.iter().copied().filter(|row| !droppable.contains(row));
-        let met: Vec<usize> = met.collect();
-        let mut met_too = certificate;
-        for (k, row) in met.iter().enumerate() {
-            met_too = elimination.meets(*row, d, met_too, g);
-            // A variable now and then: one selection within another is written, and read, by recursion.
-            if k % NESTED == NESTED - 1 {
-                let name = format!("met_{}", k / NESTED);
-                system.inner_hints.insert(met_too, name);
-            }
+        let met = regular.met.iter().filter(|row| !droppable.contains(row));
+        let met: Vec<usize> = met.copied().collect();
+        let checked = elimination.met_by(&met, d, regular, certificate, g);
+        let mut met_too = checked.last().copied().unwrap_or(certificate);
+        // A variable now and then: one selection within another is written, and read, by recursion.
+        for (k, link) in checked.chunks_exact(NESTED).enumerate() {
+            system
+                .inner_hints
+                .insert(link[NESTED - 1], format!("met_{k}"));
         }
         for dropping in &elimination.droppings {
             met_too = dropping.allows(met_too, g);
@@ -269,8 +269,8 @@ impl Elimination {
         if self.free { FREE_SHARE } else { SAFE_SHARE }
     }
 
-    /// `safe` where q̈ meets constraint `row`, else 0.
-    fn meets(&self, row: usize, d: &Dynamics, safe: Id, g: &mut Graph) -> Id {
+    /// What q̈ leaves of constraint `row`, and what that may be beside the terms.
+    fn left(&self, row: usize, d: &Dynamics, g: &mut Graph) -> [Id; 2] {
         let mut terms = vec![d.rhs[row]];
         for (i, a) in d.row(row) {
             let term = g.mul(a, self.acceleration[i]);
@@ -280,32 +280,74 @@ impl Elimination {
         let left = g.sum(&[&[(-1.0, terms[0])], &left[1..]].concat());
         let sizes = terms.iter().map(|id| (MET, g.call1(Func::Abs, *id)));
         let sizes: Vec<(f64, Id)> = sizes.collect();
-        let (left, size) = (g.call1(Func::Abs, left), g.sum(&sizes));
-        let zero = g.zero();
-        g.select(left, size, safe, zero)
+        [g.call1(Func::Abs, left), g.sum(&sizes)]
+    }
+
+    /// `safe` where q̈ meets the constraints `rows`, else 0: as many as are looked at, one after the other.
+    ///
+    /// Terms of a row may all be rounding: where nothing is accelerated under load, or not in its direction (a bicycle that runs straight
+    /// ahead). So what is left of a row, R, may also be nothing beside √(G N²), as a row that is left out has it ([`super::dropping`]),
+    /// with M that is `regular`.
+    fn met_by(
+        &self,
+        rows: &[usize],
+        d: &Dynamics,
+        regular: &Regular,
+        mut safe: Id,
+        g: &mut Graph,
+    ) -> Vec<Id> {
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        let regular = &regular.dynamics;
+        let forces = regular.force.iter().zip(&regular.nonideal);
+        let forces: Vec<Id> = forces.map(|(q, c)| g.add(*q, *c)).collect();
+        let all = self.acceleration.iter().zip(forces).enumerate();
+        let inert = all.filter_map(|(i, (x, q))| {
+            let m = *regular.mass.get(&(i, i))?;
+            let [done, free] = [[(*x, 2), (m, 1)], [(q, 2), (m, -1)]].map(|of| g.product(&of));
+            Some([(1.0, done), (1.0, free)])
+        });
+        let inert: Vec<_> = inert.flatten().collect();
+        let whole = g.sum(&inert);
+        let lengths = squares(regular, g);
+        let (zero, largest) = (g.zero(), g.constant(f64::MAX));
+        let checked = rows.iter().map(|row| {
+            let [left, size] = self.left(*row, d, g);
+            let bound = g.mul(lengths[*row], whole);
+            let [bound, square] = [g.scale(MET * MET, bound), g.square(left)];
+            // Inertia that is zero tells nothing.
+            let known = g.select(bound, largest, safe, zero);
+            let rounding = g.select(square, bound, known, zero);
+            safe = g.select(left, size, safe, rounding);
+            safe
+        });
+        checked.collect()
     }
 
     /// What each multiplier is to be multiplied by: 1 where it is unique, else not a number. The pivots of all rows that count are safe and
-    /// q̈ meets those of `met`, or none is known. No more rows are left out than the `excess` that follows from the others at any state:
+    /// q̈ meets those of `met`, or none is known. No more rows are left out than the excess that follows from the others at any state:
     /// one more is near a singular position, and moves all others. And of rows that are left out none takes part in what they follow from.
     pub(crate) fn unique(
         &self,
         met: &[usize],
-        excess: usize,
         d: &Dynamics,
+        regular: &Regular,
         g: &mut Graph,
     ) -> Vec<Id> {
         let (safe, _) = self.certificate(true, g);
-        let safe = met
-            .iter()
-            .fold(safe, |safe, row| self.meets(*row, d, safe, g));
+        let met = self.met_by(met, d, regular, safe, g);
+        let safe = met.last().copied().unwrap_or(safe);
         let safe = self
             .droppings
             .iter()
             .fold(safe, |safe, dropping| dropping.allows(safe, g));
         let left_out = self.droppings.iter().map(|row| (1.0, row.left_out(g)));
         let left_out: Vec<(f64, Id)> = left_out.collect();
-        let (left_out, most) = (g.sum(&left_out), g.constant(excess as f64));
+        let (left_out, most) = (
+            g.sum(&left_out),
+            g.constant(regular.redundant.excess as f64),
+        );
         let zero = g.zero();
         let safe = lesser(left_out, most, safe, zero, g);
         let one = g.one();
