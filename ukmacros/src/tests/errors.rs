@@ -490,7 +490,7 @@ cases! {
     reaction_of_a_row_without_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { p: rod(ground.at([0, 0]), a.at([1, 0]), 1) } output { a1 = reaction(p.«x») }" => "the rows of `p` have no names of their own; write `reaction(p)`";
     reaction_in_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { rod: sin(x) = t, next: y = «reaction»(rod) }" => "reactions follow from all other equations: `reaction` stands under";
     reaction_in_a_force: "coords { x } mass { x: 1 } force { x: «reaction»(rod) } holonomic { rod: sin(x) = t }" => "reactions follow from all other equations: `reaction` stands under";
-    reaction_in_a_value: "coords { x } let n = «reaction»(rod); mass { x: 1 } holonomic { rod: sin(x) = t } output { a = n }" => "and in functions used there";
+    reaction_in_a_value: "coords { x } let n = «reaction»(rod); mass { x: 1 } holonomic { rod: sin(x) = t } output { a = n }" => "under `output`, `integral`, `draw` and `nonideal`, and in functions used there";
     reaction_in_a_function_of_a_force: "coords { x } let n = |k| k * «reaction»(rod); mass { x: 1 } force { x: n(1) + n(2) } holonomic { rod: sin(x) = t }" => "and in functions used there";
     derivative_of_a_reaction: "coords { x } mass { x: 1 } holonomic { rod: sin(x) = t } output { a = «dot(reaction(rod))» }" => "the time derivative of a reaction is not solved for";
     reaction_without_a_straight_line: "coords { x, y, z } mass { x: 1 } holonomic { a: sin(y) * cos(z) = x, b: cos(y) * sin(z) = 2 * x } output { n = «reaction(a)» }" => "reactions cannot be used here, as they are not solved for on a straight line";

@@ -180,7 +180,7 @@ impl<'m> Lowering<'m> {
         if let Some(result) = self.results.get(&text) {
             let message = match result {
                 NoValue::Constraint => format!(
-                    "`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"
+                    "`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral`, `draw` and `nonideal`"
                 ),
                 NoValue::Output => format!(
                     "`{text}` is an output, which no expression can use; declare its value by `let`"

@@ -124,7 +124,7 @@ impl<'m> Lowering<'m> {
         let open = [Place::Output, Place::Integral, Place::Nonideal].contains(&env.place);
         if !self.constrained || !(open || self.applying()) {
             let message = format!(
-                "reactions follow from all other equations: `{name}` stands under `output`, `integral` and `nonideal`, and in functions used there"
+                "reactions follow from all other equations: `{name}` stands under `output`, `integral`, `draw` and `nonideal`, and in functions used there"
             );
             return self.error_once(name, message);
         }
