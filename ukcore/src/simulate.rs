@@ -206,8 +206,9 @@ impl Simulation {
         self
     }
 
-    /// Samples at these times and no others, instead of each accepted step; given in the order in which the run passes them. See
-    /// [`every`](Simulation::every) for their accuracy.
+    /// Samples at these times and no others, instead of each accepted step; given in the order in which the run passes them. What is beyond
+    /// an end of the run by rounding, as multiples of a step and their sums may be, is that end. See [`every`](Simulation::every) for their
+    /// accuracy.
     #[must_use]
     pub fn at(mut self, times: Vec<f64>) -> Self {
         self.sampling = Sampling::At(times);

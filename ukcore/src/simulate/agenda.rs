@@ -5,6 +5,11 @@ use super::grid::Grid;
 /// A sample within so many units of rounding of the end time is the end: both are rounded once.
 const SAME_TIME: f64 = 4.0 * f64::EPSILON;
 
+/// What times of a run from `t0` to `t_end` may be off by rounding, where so many were added up.
+pub(super) fn rounding(t0: f64, t_end: f64, added: usize) -> f64 {
+    (SAME_TIME + added as f64 * f64::EPSILON) * t0.abs().max(t_end.abs())
+}
+
 /// When samples are taken.
 #[derive(Debug, Clone)]
 pub(super) enum Sampling {
@@ -33,18 +38,22 @@ pub(super) struct Agenda {
 }
 
 impl Agenda {
-    pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
+    pub(super) fn new(mut sampling: Sampling, t0: f64, t_end: f64) -> Self {
         let sign = 1_f64.copysign(t_end - t0);
         let dt = match sampling {
             Sampling::Every(dt) => dt,
             Sampling::Steps | Sampling::At(_) => 0.0,
         };
+        if let Sampling::At(times) = &mut sampling {
+            let [low, high] = [t0.min(t_end), t0.max(t_end)];
+            times.iter_mut().for_each(|t| *t = t.clamp(low, high));
+        }
         let mut agenda = Agenda {
             sampling,
             grid: Grid::new(t0, sign * dt),
             t_end,
             sign,
-            rounding: SAME_TIME * t0.abs().max(t_end.abs()),
+            rounding: rounding(t0, t_end, 0),
             taken: 0,
             next: None,
         };

@@ -1,6 +1,6 @@
 //! Whether the settings of a simulation make sense, with each other and for its mechanism.
 
-use super::agenda::Sampling;
+use super::agenda::{Sampling, rounding};
 use super::{SMALLEST_TOLERANCE, Simulation};
 use crate::assemble::State;
 use crate::error::Error;
@@ -134,12 +134,15 @@ fn check_every(dt: f64, start: &State, t_end: f64, kept: bool) -> Result<(), Err
 /// Whether a run from `start` to `t_end` passes `times` in their order.
 fn check_times(times: &[f64], start: &State, t_end: f64) -> Result<(), Error> {
     let (low, high) = (start.t.min(t_end), start.t.max(t_end));
-    if let Some(t) = times.iter().find(|t| !(low..=high).contains(*t)) {
+    let rounding = rounding(low, high, times.len());
+    let off = |t: f64| (t - t.clamp(low, high)).abs();
+    if let Some(t) = times.iter().find(|t| !(off(**t) <= rounding)) {
         let reason = format!("contain {t}, which is not between {low} and {high}");
         return invalid("times", reason);
     }
     let sign = if t_end < start.t { -1.0 } else { 1.0 };
-    if !times.is_sorted_by(|a, b| sign * a < sign * b) {
+    let times = times.iter().map(|t| sign * t.clamp(low, high));
+    if !times.is_sorted_by(|a, b| a < b) {
         let reason = "are not in the order in which the run passes them, each once";
         return invalid("times", reason);
     }

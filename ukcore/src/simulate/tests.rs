@@ -170,3 +170,37 @@ fn source(failure: &Failure) -> (f64, Error) {
         other => panic!("{other:?} has no place"),
     }
 }
+
+/// A step added up as often as it fits may come to more than the end.
+#[test]
+fn times_that_rounding_puts_beyond_an_end_are_that_end() {
+    for (n, end) in [(1000, 0.7_f64), (10, 0.7), (49, -0.7)] {
+        let step = end / f64::from(n);
+        let mut times = vec![0.0; n as usize];
+        for k in 1..times.len() {
+            times[k] = times[k - 1] + step;
+        }
+        let last = times[times.len() - 1] + step;
+        let beyond = if end > 0.0 {
+            end.next_up()
+        } else {
+            end.next_down()
+        };
+        for last in [last, end, beyond] {
+            let times = [&times[..], &[last]].concat();
+            let run = swing(0.3, 1e-8).at(times.clone()).until(end).unwrap();
+            assert_eq!(run.len(), times.len());
+            let of_end = end * (last / end).min(1.0);
+            assert_eq!(run.last().unwrap().t, of_end, "{n}");
+        }
+    }
+    let off = swing(0.3, 1e-8).at(vec![0.5, 0.7 + 1e-12]).until(0.7);
+    assert!(
+        off.unwrap_err()
+            .error
+            .to_string()
+            .contains("is not between")
+    );
+    let twice = swing(0.3, 1e-8).at(vec![0.7, 0.7_f64.next_up()]).until(0.7);
+    assert!(twice.unwrap_err().error.to_string().contains("each once"));
+}
