@@ -521,3 +521,77 @@ fn a_motor_reaches_its_limit_in_time() {
     assert_eq!(found.limits[0].constraints, ["coupler", "rocker"]);
     assert_close("speed", found.velocity("th").unwrap()[3], 0.5, 1e-13);
 }
+
+ukcore::multibody! {
+    /// The window of docs/drives.md, somewhere; the arm may be driven by a clock.
+    pub Window {
+        params { crank = 0.3 [m], coupler = 0.2 [m], rocker = 0.24 [m], span = 0.4 [m], o[2] = [0.0, 0.0] [m] }
+        bodies {
+            planar arm { mass: 0.4, inertia: 0.003, centre: [crank / 2, 0] }
+            planar rod { mass: 0.3, inertia: 0.001, centre: [coupler / 2, 0] }
+            planar wing { mass: 6, inertia: 0.1, centre: [rocker, 0] }
+        }
+        coords { clock }
+        mass { clock: 1.0 }
+        holonomic {
+            axle: pin(ground.at(o), arm.at([0, 0]))
+            elbow: pin(arm.at([crank, 0]), rod.at([0, 0]))
+            wrist: pin(rod.at([coupler, 0]), wing.at([rocker, 0]))
+            hinge: pin(ground.at(o + [span, 0]), wing.at([0, 0]))
+            motor: arm.angle = 0.4 + 0.9 * (1 - cos(clock))
+        }
+        start ajar { clock = 0.5; rod.angle near 0.3; wing.angle near 1.4 }
+    }
+}
+
+ukcore::multibody! {
+    /// A slider-crank of points, somewhere.
+    pub Points {
+        params { r = 0.2, l = 0.5, o[2] = [0.0, 0.0] }
+        coords { p[2], s }
+        mass { p: 1.0, s: 2.0 }
+        holonomic { crank: sq(p - o) = sq(r), rod: sq([s, o[1]] - p) = sq(l) }
+        start ahead { s = o[0] + 0.65; p[0] near o[0] + 0.18; p[1] near o[1] + 0.08 }
+    }
+}
+
+/// Where the ground is says nothing of how far a mechanism moves: dead centres are found wherever it stands, to rounding of positions.
+#[test]
+fn dead_centres_far_from_the_origin() {
+    let reach = |a: f64, b: f64, c: f64| ((a * a + b * b - c * c) / (2.0 * a * b)).acos();
+    let (arm, wing) = (reach(0.3, 0.4, 0.44), PI - reach(0.24, 0.4, 0.5));
+    for o in [
+        [0.0, 0.0],
+        [1e3, 0.0],
+        [0.0, 1e3],
+        [1e4, -1e4],
+        [1e5, 0.0],
+        [-1e6, 1e6],
+    ] {
+        let far = 1e-10 + 1e-15 * f64::hypot(o[0], o[1]);
+        let limit = |found: Kinematics| {
+            assert_eq!(found.limits.len(), 1, "{o:?}");
+            found.limits[0].drives[0].1
+        };
+        let window = Window {
+            o,
+            ..Window::default()
+        };
+        let start = window.start("ajar", &[].into()).unwrap();
+        let angle = start.q[8];
+        let found = limit(swept(&window, &start, "wing.angle", angle..-6.0, 50));
+        assert!((found - wing).abs() <= far, "{o:?}: {found} {wing}");
+        let found = limit(swept(&window, &start, "arm.angle", start.q[2]..3.0, 50));
+        assert!((found - arm).abs() <= far, "{o:?}: {found} {arm}");
+        let found = limit(swept(&window, &start, "clock", 0.0..3.0, 50));
+        let clock = (1.0 - (arm - 0.4) / 0.9).acos();
+        assert!((found - clock).abs() <= far, "{o:?}: {found} {clock}");
+        let points = Points {
+            o,
+            ..Points::default()
+        };
+        let start = points.start("ahead", &[].into()).unwrap();
+        let found = limit(swept(&points, &start, "s", o[0] + 0.4..o[0] + 0.9, 50));
+        assert!((found - o[0] - 0.7).abs() <= far, "{o:?}: {found}");
+    }
+}

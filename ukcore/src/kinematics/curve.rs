@@ -6,8 +6,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{INDEPENDENT, measure, pivoted};
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::zero::locate;
 
 /// Steps of Newton's method at most.
@@ -18,9 +19,11 @@ const STALLED: f64 = 1e-10;
 /// A step along the curve turns its tangent by less than the first of these angles, rad; the second is aimed at.
 const TURN: f64 = 0.3;
 const WANTED: f64 = 0.15;
-/// The first step, as a part of the sweep; and the least one, of the coordinates.
+/// The first step, as a part of the sweep; and the least one, of what the curve is measured by, and of the coordinates, which are known to
+/// rounding.
 const FIRST: f64 = 1e-3;
 const LEAST: f64 = 1e-9;
+const ROUGH: f64 = 1e-13;
 /// What is nearer to a limit than this part of the sweep is there.
 pub(super) const AT: f64 = 1e-12;
 /// Steps along a curve at most.
@@ -38,6 +41,8 @@ pub(super) struct Curve<'a> {
     pub(super) time: (f64, f64),
     /// How much of the sweep is done in a second.
     pub(super) speed: f64,
+    /// What the coordinates come to in units, wherever the ground is.
+    pub(super) extent: f64,
     /// The largest length of each row that is known, beside which a row may come to vanish; none yet where it is empty.
     pub(super) lengths: Vec<f64>,
     /// What the rows usually keep beside each other.
@@ -235,9 +240,53 @@ impl Curve<'_> {
         residual
     }
 
-    /// How long the sweep and the coordinates are, in units.
-    pub(super) fn size(&self, x: &DVector<f64>) -> f64 {
-        x.component_div(&self.units).norm() + 1.0 / self.units[x.len() - 1]
+    /// How long the sweep and the coordinates are, in units: numbers as they stand, which rounding goes by.
+    fn size(&self, x: &DVector<f64>) -> f64 {
+        x.component_div(&self.units).norm() + self.length()
+    }
+
+    /// How long the sweep is, in units.
+    fn length(&self) -> f64 {
+        1.0 / self.units[self.units.len() - 1]
+    }
+
+    /// How long the sweep and the mechanism are, in units.
+    pub(super) fn scale(&self) -> f64 {
+        self.extent + self.length()
+    }
+
+    /// What the coordinates come to at `x`, in units: each by its value, but by no more than turns a row of A by about a radian. What turns
+    /// none, as places of bodies do not, tells where the ground is.
+    pub(super) fn extent_at(&self, x: &DVector<f64>) -> f64 {
+        let spec = self.mech.spec();
+        let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
+        let (t, rest) = (self.time_at(x[n]), vec![Sloped::from_f64(0.0); n]);
+        let (t, sloped) = (Sloped::from_f64(t), self.mech.sloped());
+        let entries = spec.structure.jacobian_pattern.iter();
+        let entries = entries.filter(|(c, _)| *c < h);
+        let mut terms = Evaluated::<Sloped>::new(n, m);
+        let mut sum = 0.0_f64;
+        for first in (0..n).step_by(Slopes::COUNT) {
+            let q = x.iter().take(n).enumerate();
+            let q = q.map(|(i, x)| Sloped::new(*x, Slopes::unit(i, first)));
+            terms.dynamics(&sloped, t, &q.collect::<Vec<_>>(), &rest);
+            for j in first..n.min(first + Slopes::COUNT) {
+                let unit = self.units[j];
+                let mut rows = vec![[0.0_f64; 2]; h];
+                for (c, i) in entries.clone() {
+                    let a = &terms.jacobian[i * m + c];
+                    let [length, rate] = &mut rows[*c];
+                    *length = length.hypot(a.re * self.units[*i]);
+                    *rate = rate.hypot(a.eps.along(j - first) * self.units[*i] * unit);
+                }
+                let turned = rows.iter().filter(|[_, rate]| *rate > 0.0);
+                let radian = turned.map(|[length, rate]| length / rate);
+                if let Some(radian) = radian.reduce(f64::min) {
+                    sum = sum.hypot((x[j] / unit).abs().min(radian));
+                }
+            }
+        }
+        sum
     }
 
     /// The place on the curve that is reached from `x`, where the tangent is nearest to `way`.
@@ -299,7 +348,8 @@ impl Curve<'_> {
     /// Follows the curve from `from` until s has come to `until`, to where s turns back before, or to where there is no smooth way on.
     pub(super) fn follow(&self, from: Place, until: f64) -> Path {
         let (per, sense) = (self.units[from.x.len() - 1], from.speed().signum());
-        let size = self.size(&from.x);
+        let size = self.scale();
+        let least = (LEAST * size).max(ROUGH * self.size(&from.x));
         // The length along the curve in which s changes by `part`.
         let lasts = |place: &Place, part: f64| part / (per * place.speed().abs());
         let mut step = lasts(&from, FIRST).min(size);
@@ -314,7 +364,7 @@ impl Curve<'_> {
             if places.len() > STEPS {
                 break End::Long;
             }
-            if step < LEAST * size {
+            if step < least {
                 break End::Stuck;
             }
             step = step.min(lasts(here, (1.1 * rest).max(FIRST)));

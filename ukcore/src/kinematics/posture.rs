@@ -70,7 +70,7 @@ impl Curve<'_> {
         };
         let zero = vec![0.0; a.acceleration.len()];
         let speed = most(&a.state.v, &zero);
-        let turn = speed * speed / most(&a.state.q, &zero).max(1.0 / self.units[zero.len()]);
+        let turn = speed * speed / self.scale();
         most(&a.state.v, &b.state.v) <= SAME * speed
             && most(&a.acceleration, &b.acceleration)
                 <= SAME * (turn + most(&a.acceleration, &zero))

@@ -143,9 +143,10 @@ impl<'a> Sweep<'a> {
             None => (self.led_in()?, 0.0),
         };
         let curve = self.curve(|drive| drive.range.clone());
-        let (begin, units) = self.place(&curve, &state, from)?;
+        let (begin, units, extent) = self.place(&curve, &state, from)?;
         let mut curve = Curve {
             units,
+            extent,
             speed: self.speed(),
             ..curve
         };
@@ -217,8 +218,12 @@ impl<'a> Sweep<'a> {
     /// The state at the begin of the sweep, where drives are taken to on a straight line.
     fn led_in(&self) -> Result<State, Error> {
         let curve = self.curve(|drive| drive.of(self.start)..drive.range.start);
-        let (begin, units) = self.place(&curve, self.start, 0.0)?;
-        let mut curve = Curve { units, ..curve };
+        let (begin, units, extent) = self.place(&curve, self.start, 0.0)?;
+        let mut curve = Curve {
+            units,
+            extent,
+            ..curve
+        };
         let path = curve.follow(begin, 1.0);
         curve.gauge(&path);
         match path.end {
@@ -257,19 +262,20 @@ impl<'a> Sweep<'a> {
             fixed,
             time,
             speed: 1.0,
+            extent: 0.0,
             lengths: Vec::new(),
             margin: 1.0,
         }
     }
 
-    /// The place of `state` on `curve`, at the part `s` of the sweep, and what the curve is to be measured by: the sweep as far as the
-    /// coordinates move in it.
+    /// The place of `state` on `curve`, at the part `s` of the sweep, and what the curve is to be measured by, the sweep as far as the
+    /// coordinates move in it; and what these come to.
     fn place(
         &self,
         curve: &Curve<'_>,
         state: &State,
         s: f64,
-    ) -> Result<(Place, DVector<f64>), Error> {
+    ) -> Result<(Place, DVector<f64>, f64), Error> {
         let n = state.q.len();
         let x = DVector::from_column_slice(&state.q).insert_row(n, s);
         let rows = curve.rows(&x, n + 1);
@@ -281,8 +287,8 @@ impl<'a> Sweep<'a> {
         let measured = |x: f64, j: usize| x / curve.units[j];
         let gains = curve.fixed.iter().map(|(j, _, gain)| measured(*gain, *j));
         let gains = gains.fold(0.0_f64, f64::hypot);
-        let size = x.rows(0, n).component_div(&curve.units.rows(0, n)).norm();
-        let (size, moved) = (size.max(gains), way.rows(0, n).norm());
+        let extent = curve.extent_at(&x);
+        let (size, moved) = (extent.max(gains), way.rows(0, n).norm());
         if way[n].abs() * or_one(size) <= STILL * moved {
             return Err(self.still(curve, state, &rows));
         }
@@ -298,7 +304,7 @@ impl<'a> Sweep<'a> {
         }
         let mut way = way.component_mul(&curve.units).component_div(&units);
         way /= way.norm() * way[n].signum();
-        Ok((Place { x, way }, units))
+        Ok((Place { x, way }, units, extent))
     }
 
     /// The rows at other consistent states, beside `state`.
