@@ -578,10 +578,10 @@ fn dead_centres_far_from_the_origin() {
             ..Window::default()
         };
         let start = window.start("ajar", &[].into()).unwrap();
-        let angle = start.q[8];
-        let found = limit(swept(&window, &start, "wing.angle", angle..-6.0, 50));
+        let [of_arm, of_wing] = [Window::ARM_ANGLE, Window::WING_ANGLE].map(|j| start.q[j]);
+        let found = limit(swept(&window, &start, "wing.angle", of_wing..-6.0, 50));
         assert!((found - wing).abs() <= far, "{o:?}: {found} {wing}");
-        let found = limit(swept(&window, &start, "arm.angle", start.q[2]..3.0, 50));
+        let found = limit(swept(&window, &start, "arm.angle", of_arm..3.0, 50));
         assert!((found - arm).abs() <= far, "{o:?}: {found} {arm}");
         let found = limit(swept(&window, &start, "clock", 0.0..3.0, 50));
         let clock = (1.0 - (arm - 0.4) / 0.9).acos();
