@@ -135,8 +135,8 @@ fn check_every(dt: f64, start: &State, t_end: f64, kept: bool) -> Result<(), Err
 fn check_times(times: &[f64], start: &State, t_end: f64) -> Result<(), Error> {
     let (low, high) = (start.t.min(t_end), start.t.max(t_end));
     let rounding = rounding(low, high, times.len());
-    let off = |t: f64| (t - t.clamp(low, high)).abs();
-    if let Some(t) = times.iter().find(|t| !(off(**t) <= rounding)) {
+    let near = low - rounding..=high + rounding;
+    if let Some(t) = times.iter().find(|t| !near.contains(*t)) {
         let reason = format!("contain {t}, which is not between {low} and {high}");
         return invalid("times", reason);
     }

@@ -182,7 +182,8 @@ impl Straight {
         solutions.chain([&mut self.certificate, &mut self.met_too])
     }
 
-    /// Adds the certificate, and enters the names. Of the constraints of `d` those are checked after the solution that `regular` has in doubt.
+    /// Adds the certificate, and enters the names. Of the constraints of `d` those that `regular` has in doubt are checked after the
+    /// solution.
     pub(crate) fn new(
         mut elimination: Elimination,
         d: &Dynamics,
