@@ -341,11 +341,12 @@ impl<'a> ByParts<'a> {
     /// `x` with the unknowns of `part` moved to a solution that keeps what the guess tells of them, where what it does not follows.
     fn follow(&mut self, part: &Part, x: &[f64]) -> Option<Vec<f64>> {
         let search = &mut *self.search;
-        search.begun += 1;
         let places = (x, self.guess);
-        search
+        let found = search
             .manifold
-            .settled(self.at, part, places, &search.untold)
+            .settled(self.at, part, places, &search.untold)?;
+        search.begun += 1;
+        Some(found)
     }
 
     /// The solution that is next to what the guess tells, of those that do not lie apart from this one.
