@@ -89,6 +89,38 @@ macro_rules! linkage_in_the_plane {
 }
 linkage_in_the_plane! { Flat, { q: pin(rod.at([0.7, 0]), rocker.at([0.5, 0])) }, reaction(q) }
 linkage_in_the_plane! { FlatWritten, { q: rod.at([0.7, 0]) = rocker.at([0.5, 0]) }, -reaction(q) }
+// What a joint is compared with, or is part of, is in axes of the ground.
+linkage_in_the_plane! { Sided, { q: pin(rod.at([0.7, 0]), rocker.at([0.5, 0])) = [0.1, 0.2] }, reaction(q) }
+linkage_in_the_plane! { SidedWritten, { q: rocker.at([0.5, 0]) - rod.at([0.7, 0]) = [0.1, 0.2] }, reaction(q) }
+linkage_in_the_plane! { Along, { q: inner(pin(rod.at([0.7, 0]), rocker.at([0.5, 0])), [1, 0.3]) = 0.1 }, [reaction(q), 0] }
+linkage_in_the_plane! { AlongWritten, { q: inner(rocker.at([0.5, 0]) - rod.at([0.7, 0]), [1, 0.3]) = 0.1 }, [reaction(q), 0] }
+
+/// A linkage that a function closes, which may be a joint, or one with something added to it.
+macro_rules! hooked {
+    ($name:ident, $hook:expr) => {
+        ukcore::multibody! {
+            $name {
+                bodies {
+                    planar cart { mass: 2.0, inertia: 0.3, centre: [0.1, 0.1] }
+                    planar crank { mass: 1.0, inertia: 0.03, centre: [0.15, 0] }
+                    planar rod { mass: 0.7, inertia: 0.02, centre: [0.35, 0] }
+                    planar rocker { mass: 1.1, inertia: 0.03, centre: [0.25, 0] }
+                }
+                let hook = $hook;
+                tree {
+                    o: pin(cart.at([0, 0]), crank.at([0, 0]))
+                    p: pin(crank.at([0.3, 0]), rod.at([0, 0]))
+                    r: pin(cart.at([0.6, 0]), rocker.at([0, 0]))
+                }
+                holonomic { q: hook(rod.at([0.7, 0]), rocker.at([0.5, 0])) = [0, 0] }
+                output { pull = reaction(q) }
+                start open { o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
+            }
+        }
+    };
+}
+hooked! { Hooked, |p, q| pin(p, q) + [0, 0.1] }
+hooked! { HookedWritten, |p, q| q - p + [0, 0.1] }
 
 /// States of the mechanism that satisfy its constraints, all ways round and moving, where the coordinates called so are held.
 fn states(prepared: &Prepared, held: &[&str]) -> Vec<State> {
@@ -155,6 +187,50 @@ fn what_one_body_carries_moves_as_written_in_axes_of_the_ground() {
         &["s", "waist", "o"],
     );
     alike(&Flat::default(), &FlatWritten::default(), &["cart", "o"]);
+    alike(&Sided::default(), &SidedWritten::default(), &["cart", "o"]);
+    alike(&Along::default(), &AlongWritten::default(), &["cart", "o"]);
+    alike(
+        &Hooked::default(),
+        &HookedWritten::default(),
+        &["cart", "o"],
+    );
+}
+
+ukcore::multibody! {
+    /// A loop of a plane on a trunk, whose offsets out of it are parameters that add up, and whose load is asked for.
+    Layered {
+        params { h = 0.1, k = 0.2, s = 0.3 }
+        bodies {
+            spatial trunk { mass: 5.0, inertia: [0.4, 0.5, 0.6] }
+            spatial a { mass: 1.0, inertia: [0.01, 0.03, 0.03], centre: [0.15, 0, 0] }
+            spatial b { mass: 0.7, inertia: [0.01, 0.02, 0.02], centre: [0.35, 0, 0] }
+            spatial c { mass: 1.1, inertia: [0.01, 0.03, 0.03], centre: [0.25, 0, 0] }
+        }
+        tree {
+            o: hinge(trunk.at([0, 0, h]), a.at([0, 0, 0]), [0, 0, 1])
+            p: hinge(a.at([0.3, 0, k]), b.at([0, 0, 0]), [0, 0, 1])
+            r: hinge(trunk.at([0.6, 0, 0]), c.at([0, 0, 0]), [0, 0, 1])
+        }
+        holonomic { q: ball(b.at([0.7, 0, 0]), c.at([0.5, 0, s])) }
+        output { pull = reaction(q) }
+        start open { trunk.omega = [0.4, 0.3, 0.2]; o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
+    }
+}
+
+/// What parameters decide is a row as any other: with others of them there is no such loop.
+#[test]
+fn a_row_that_parameters_decide_is_kept() {
+    let layered = Layered::default();
+    let start = layered.start("open", &[].into()).expect("a start");
+    let run = Simulation::new(&layered)
+        .start(start)
+        .until(1.0)
+        .expect("a run");
+    assert!(run.energy_drift() < 1e-6);
+    let apart = Layered { s: 0.4, ..layered };
+    apart
+        .start("open", &[].into())
+        .expect_err("it does not close");
 }
 
 /// Rows of such a loop have entries for its own coordinates alone.

@@ -121,3 +121,23 @@ fn what_is_told_is_kept_and_all_else_follows() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A point on a sphere and on a cone-like surface, heavy along one axis.
+    Crossed {
+        coords { x, y, z }
+        mass { x: 1, y: 1, z: 100 }
+        holonomic { s: sq(x) + sq(y) + sq(z) = 1, c: y * z = 0.1 * x * x }
+        start told { x near 0.302; y near -0.158 }
+    }
+}
+
+/// Where what is told cannot be kept, what is nearest to it is found as well as from all that is told.
+#[test]
+fn what_cannot_be_kept_is_as_near_as_by_any_search() {
+    let start = Crossed::default()
+        .start("told", &[].into())
+        .expect("a start");
+    let off = (start.q[0] - 0.302).hypot(start.q[1] + 0.158);
+    assert!(off < 0.15, "{start:?}");
+}

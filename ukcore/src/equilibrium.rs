@@ -41,8 +41,9 @@ pub enum Stability {
     Unstable,
 }
 
-/// Attempted steps at most: along a stiff spring that turns they are short.
-const STEPS: usize = 1000;
+/// Attempted steps at most; and of a careful search, as they are short along a stiff spring that turns.
+const STEPS: usize = 200;
+const CAREFUL_STEPS: usize = 1000;
 /// A displacement for differences of forces, as a part of the coordinates, where coordinates are held.
 const DIFFERENCE: f64 = 1e-6;
 /// A displacement for differences of the potential, in the same way, and the share of forces that these are known to.
@@ -90,68 +91,28 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     let mech: Prepared = mechanism.into();
     let held = held(mech.spec(), hold)?;
-    let mut search = Search {
-        solver: Solver::new(&mech, SolverOptions::default()),
-        conservative: true,
-        mech,
-        held,
-        size: 0.0,
-    };
     let mut still = guess.clone();
     still.v.fill(0.0);
-    let mut here = search.place(still)?;
-    let mut damping = 0.0_f64;
-    let (first, mut firm) = (here.force.norm(), None);
-    for _ in 0..STEPS {
-        if here.force.is_empty() {
-            // Nothing is left to move, as also behind a singular position.
-            return Ok(Equilibrium {
-                state: here.state,
-                stability: Stability::Stable,
-            });
-        }
-        let stiffness = search.stiffness(&here)?;
-        let firm = firm.get_or_insert(stiffness.amax());
-        *firm = firm.max(here.force.norm() / search.size);
-        let step = |damping: f64| here.step(&stiffness, search.size, damping);
-        // So far off that nothing is finite any more there is no rest position.
-        let Some((full, loose)) = step(0.0) else {
-            break;
+    let mut driven = 0;
+    for careful in [false, true] {
+        let mut search = Search {
+            solver: Solver::new(&mech, SolverOptions::default()),
+            conservative: true,
+            mech: mech.clone(),
+            held: held.clone(),
+            size: 0.0,
+            careful,
         };
-        // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
-        let still = full.amax() <= NOWHERE * search.size && here.force.norm() <= first;
-        if here.is_balanced() || still && loose <= BALANCED * here.parts {
-            search.is_smooth(&here, &full, &stiffness, (first, *firm))?;
-            let stability = search.stability(&here, &stiffness)?;
-            return Ok(Equilibrium {
-                state: here.state,
-                stability,
-            });
-        }
-        let damped = if damping > 0.0 { step(damping) } else { None };
-        let step = damped.map_or(full, |(step, _)| step);
-        match search.moved(&here, &step) {
-            Ok(there) if there.improves_on(&here) && search.follows(&here, &step, &there) => {
-                here = there;
-                damping *= 0.1;
-                if damping < 0.1 {
-                    damping = 0.0;
-                }
-            }
-            _ => damping = 4.0 * damping + 1.0,
-        }
-        // What is tried may be the first to show other forces, as a force of what has not moved yet.
-        here.potential = here.potential.filter(|_| search.conservative);
-        if damping > 1e20 {
-            break;
+        match search.fall(still.clone())? {
+            Ok(found) => return Ok(found),
+            Err(most) => driven = most,
         }
     }
-    let most = here.push.icamax();
     Err(Error::invalid(
         "guess",
         format!(
             "leads to no rest position: where the search ends `{}` is still driven most; give a nearer one, or hold coordinates",
-            search.mech.spec().coords[most]
+            mech.spec().coords[driven]
         ),
     ))
 }
@@ -171,6 +132,9 @@ struct Search {
     size: f64,
     /// Whether all forces at rest so far have been those of the potential.
     conservative: bool,
+    /// Whether ways along which little is stiff are mistrusted: such a search finds its way beside what costs nothing and along what is
+    /// very stiff, in more steps, and may not get off a stop.
+    careful: bool,
 }
 
 /// A position on the constraints, and what drives it.
@@ -226,11 +190,12 @@ impl Place {
     }
 
     /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where
-    /// nothing stiff holds it near. With `damping` it is shorter, and most where it is weak. `None` for a stiffness that is not finite.
+    /// nothing stiff holds it near. With `damping` it is shorter, in a careful search most where it is weak. `None` for a stiffness that is
+    /// not finite.
     fn step(
         &self,
         stiffness: &DMatrix<f64>,
-        size: f64,
+        (size, careful): (f64, bool),
         damping: f64,
     ) -> Option<(DVector<f64>, f64)> {
         let largest = stiffness.amax();
@@ -243,9 +208,11 @@ impl Place {
         // leave there as they bend, as much as the force is over the way: their ratio says nothing. Then as much is to be gained there as
         // along the stiffest.
         let force = self.force.norm();
-        let bent = force / size;
+        let bent = if careful { force / size } else { 0.0 };
         let gains = |share: f64, curvature: f64| {
-            self.potential.is_some() && share * share * largest > GAINED * force * force * curvature
+            careful
+                && self.potential.is_some()
+                && share * share * largest > GAINED * force * force * curvature
         };
         let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
             let mut loose = 0.0_f64;
@@ -277,6 +244,65 @@ impl Place {
 }
 
 impl Search {
+    /// The rest position that `start` falls to; where none is found the coordinate that is driven most where the search ends.
+    fn fall(&mut self, start: State) -> Result<Result<Equilibrium, usize>, Error> {
+        let mut here = self.place(start)?;
+        let mut damping = 0.0_f64;
+        let (first, mut firm, mut known) = (here.force.norm(), None, None);
+        let steps = if self.careful { CAREFUL_STEPS } else { STEPS };
+        for _ in 0..steps {
+            if here.force.is_empty() {
+                // Nothing is left to move, as also behind a singular position.
+                return Ok(Ok(Equilibrium {
+                    state: here.state,
+                    stability: Stability::Stable,
+                }));
+            }
+            let stiffness = match known.take() {
+                Some(stiffness) => stiffness,
+                None => self.stiffness(&here)?,
+            };
+            let firm = firm.get_or_insert(stiffness.amax());
+            *firm = firm.max(here.force.norm() / self.size);
+            let step = |damping: f64| here.step(&stiffness, (self.size, self.careful), damping);
+            // So far off that nothing is finite any more there is no rest position.
+            let Some((full, loose)) = step(0.0) else {
+                break;
+            };
+            // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
+            let still = full.amax() <= NOWHERE * self.size && here.force.norm() <= first;
+            if here.is_balanced() || still && loose <= BALANCED * here.parts {
+                self.is_smooth(&here, &full, &stiffness, (first, *firm))?;
+                let stability = self.stability(&here, &stiffness)?;
+                return Ok(Ok(Equilibrium {
+                    state: here.state,
+                    stability,
+                }));
+            }
+            let damped = if damping > 0.0 { step(damping) } else { None };
+            let step = damped.map_or(full, |(step, _)| step);
+            match self.moved(&here, &step) {
+                Ok(there) if there.improves_on(&here) && self.follows(&here, &step, &there) => {
+                    here = there;
+                    damping *= 0.1;
+                    if damping < 0.1 {
+                        damping = 0.0;
+                    }
+                }
+                _ => {
+                    damping = 4.0 * damping + 1.0;
+                    known = Some(stiffness);
+                }
+            }
+            // What is tried may be the first to show other forces, as a force of what has not moved yet.
+            here.potential = here.potential.filter(|_| self.conservative);
+            if damping > 1e20 {
+                break;
+            }
+        }
+        Ok(Err(here.push.icamax()))
+    }
+
     /// The position on the constraints next to `state`.
     fn place(&mut self, state: State) -> Result<Place, Error> {
         let positions = Held {

@@ -160,7 +160,7 @@ impl Simulation {
     /// of a length a radian is worth. So a mechanism with lengths in its constraints takes the same steps in micrometres, metres and
     /// kilometres. Where there is neither an angle nor a curved constraint, nothing tells what is large, and the size is at most 1: of
     /// coordinates of 1e9 m that move by metres those metres count. Velocities have the same numbers as their coordinates, by the unit of
-    /// time, or less where the motion is slower at its start and by its acceleration there, or a thousandth of these where
+    /// time, or less where the motion is slower at its start and by its acceleration there, or a ten-thousandth of these where
     /// that is more.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {

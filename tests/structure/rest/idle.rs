@@ -159,3 +159,23 @@ fn a_weight_on_a_stiff_spring_finds_its_rest() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A weight that falls onto two stiff stops in a field that bends.
+    Cornered {
+        params { k = 1e7 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        potential { 0.5 * k * sq(max(0, -y)), 9.81 * y, 0.5 * k * sq(max(0, x - 1)), -2 * x, 0.05 * sq(x) * y }
+    }
+}
+
+/// What lies between stops is let go along them.
+#[test]
+fn a_weight_finds_its_corner_between_stiff_stops() {
+    let rest =
+        equilibrium(Cornered::default(), &at_rest(&[-1.0, -0.5]), &[]).expect("a rest position");
+    assert_close("right", rest.state.q[0], 1.0 + 2e-7, 1e-9);
+    assert_close("below", rest.state.q[1], -9.86e-7, 1e-9);
+    assert_eq!(rest.stability, Stability::Stable);
+}

@@ -382,10 +382,13 @@ impl<'a> ByParts<'a> {
         beginning: usize,
         random: &mut Random,
     ) -> Option<Found> {
-        if beginning == 0
-            && let Some(place) = self.follow(part, x)
-        {
-            return Some(self.found(part, place));
+        let kept = match beginning {
+            0 => self.follow(part, x).map(|x| self.found(part, x)),
+            _ => None,
+        };
+        // Where other solutions lie apart they are looked for.
+        if part.is_determined() && kept.is_some() {
+            return kept;
         }
         let mut place = x.to_vec();
         if let Some(share) = SHAKES.get(beginning) {
@@ -402,8 +405,9 @@ impl<'a> ByParts<'a> {
                 random,
             );
         }
-        let place = self.search(part, place)?;
-        Some(self.found(part, place))
+        let found = self.search(part, place).map(|x| self.found(part, x));
+        let both = found.into_iter().chain(kept);
+        both.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
     /// `x` with the unknowns of `part` moved to a solution.

@@ -144,9 +144,7 @@ impl Search {
         if let Some(x) = self.find_by_parts(at, guess) {
             return Ok(x);
         }
-        if let Some(x) = self.settled(at, guess, guess) {
-            return Ok(x);
-        }
+        let kept = self.settled(at, guess, guess);
         let extents = self.manifold.extents(at, guess);
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
@@ -161,15 +159,19 @@ impl Search {
                 let mut place = guess.to_vec();
                 shake(&mut place, &self.free, |j| share * extents[j]);
                 let Err(cost) = self.manifold.search(at, guess, &mut place) else {
-                    let off = |search: &Self, x: &[f64]| search.distance(&search.free, guess, x);
                     let settled = self.settled(at, guess, &place);
-                    let nearer = settled.filter(|x| off(self, x) < off(self, &place));
-                    return Ok(nearer.unwrap_or(place));
+                    let all = [Some(place), settled, kept].into_iter().flatten();
+                    let off = |x: &Vec<f64>| self.distance(&self.free, guess, x);
+                    let nearest = all.min_by(|x, y| off(x).total_cmp(&off(y)));
+                    return Ok(nearest.unwrap_or_default());
                 };
                 if cost < least && !even {
                     (least, x) = (cost, place);
                 }
             }
+        }
+        if let Some(kept) = kept {
+            return Ok(kept);
         }
         Err(match self.manifold.refusal(at, &x) {
             Error::OffConstraint { level, constraints } => Error::NotAssembled {

@@ -194,7 +194,7 @@ impl Simulation {
 }
 
 /// Velocities count as no less than this part of what a motion begins with, or gains at once.
-const FAST: f64 = 1e-3;
+const FAST: f64 = 1e-4;
 
 /// Whether velocities are along the constraints but for rounding, or this share of what their rows are where they do not all but vanish.
 fn goes_along(

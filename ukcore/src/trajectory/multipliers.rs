@@ -10,7 +10,7 @@ impl Trajectory {
     /// Multipliers λ of the constraint called `name` at the samples, a vector for each: of a constraint with several rows (`"knee"`) all of
     /// them, of a row (`"knee.x"`) or a constraint of one row that alone. They are those of
     /// [`Solution::multipliers`](crate::Solution::multipliers); of a joint between points in the plane or in space that has rows `x`, `y`
-    /// (and `z`) these are the force on the second body, in axes of the ground, or of the body that both hang on in a `tree`.
+    /// (and `z`) these are the force on the second body, in axes of the ground, or that turn with the body that both hang on in a `tree`.
     ///
     /// Where constraints imply each other, what they share is not determined: multipliers that are not unique are not a number.
     ///

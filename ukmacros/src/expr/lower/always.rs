@@ -36,6 +36,10 @@ impl Lowering<'_> {
             always = found.into_iter().map(|(row, _)| row).collect();
         }
         rows.retain(|row| !always.contains(row));
+        for row in self.in_axes_of_the_ground(&rows) {
+            rows.retain(|other| *other != row);
+            always.retain(|other| *other != row);
+        }
         self.report_defaults(&rows, &exact);
         self.leave_out(&always);
     }
@@ -101,6 +105,26 @@ impl Lowering<'_> {
         let found = rows.iter().zip(bounds);
         let found = found.filter(|(_, (x, bound))| bound.is_finite() && x.abs() <= *bound);
         found.map(|(row, (x, _))| (*row, x)).collect()
+    }
+
+    /// Writes joints, some of whose `rows` vanish with default parameters alone, in axes of the ground, if they are not. Returns all their
+    /// rows.
+    fn in_axes_of_the_ground(&mut self, rows: &[usize]) -> Vec<usize> {
+        let mut changed = Vec::new();
+        for known in self.known.values_mut() {
+            let own: Vec<usize> = known.rows.iter().flatten().copied().collect();
+            if known.ground.is_empty() || !own.iter().any(|row| rows.contains(row)) {
+                continue;
+            }
+            for (row, phi) in own.iter().zip(&known.ground) {
+                self.constraints[*row].phi = *phi;
+            }
+            if let Some(load) = &mut known.load {
+                load.turn_back();
+            }
+            changed.extend(own);
+        }
+        changed
     }
 
     /// Reports constraints whose `rows` vanish with default parameters alone, unless they are `exact` zeros.

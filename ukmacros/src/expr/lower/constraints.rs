@@ -88,14 +88,17 @@ impl<'m> Lowering<'m> {
         };
         let env = Env::new(scope, place);
         let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), None);
+        let mut joint = None;
         let mut known = true;
         match &equation.lhs.kind {
             ExprKind::Call(..) => {
                 let value = self.argument(&equation.lhs, &env);
                 known = !value.is_error();
-                if let Value::Joint(joint) = &value {
-                    rows.clone_from(&joint.names);
-                    load.clone_from(&joint.load);
+                if let Value::Joint(whole) = &value {
+                    rows.clone_from(&whole.names);
+                    load.clone_from(&whole.load);
+                    // With a right side it is compared with what is in axes of the ground.
+                    joint = Some(whole.clone()).filter(|_| equation.rhs.is_none());
                 }
                 let value = self.numbers(value, equation.lhs.loc);
                 self.term(&equation.lhs, value, 1.0, &mut terms);
@@ -118,6 +121,16 @@ impl<'m> Lowering<'m> {
             true => Value::Error,
             false => self.total(&terms, true),
         };
+        let (total, ground) = match joint.as_ref().and_then(|joint| joint.carried.as_ref()) {
+            Some(carried) => {
+                if let Some(load) = &mut load {
+                    load.turn(carried.axes.clone());
+                }
+                let ground = total.entries().to_vec();
+                (Value::new(total.shape(), carried.rows.clone()), ground)
+            }
+            None => (total, Vec::new()),
+        };
         let (first, whole) = (self.constraints.len(), item.text());
         for (k, (components, phi)) in self.components(&total).into_iter().enumerate() {
             item.components = components;
@@ -132,7 +145,7 @@ impl<'m> Lowering<'m> {
         }
         // What is in error has no reaction that could be judged.
         if !total.is_error() {
-            self.know(whole, first, total.shape(), rows, load);
+            self.know(whole, first, total.shape(), rows, load, ground);
         }
     }
 

@@ -6,6 +6,7 @@ mod acting;
 mod carried;
 
 pub(super) use acting::Acting;
+pub(super) use carried::Carried;
 use carried::Carrier;
 
 use super::array::{Value, describe};
@@ -216,6 +217,8 @@ pub(super) struct Joint {
     pub(super) names: Vec<&'static str>,
     /// The load on the second body, where the joint is between bodies.
     pub(super) load: Option<Load>,
+    /// The rows where one body carries both.
+    pub(super) carried: Option<Carried>,
 }
 
 /// The names of all joints.
@@ -327,12 +330,8 @@ impl<'m> Lowering<'m> {
         if self.allowed_value(rows.clone(), e.loc, env).is_error() {
             return Value::Error;
         }
-        let carrier = self.carrier(&inner);
-        let rows = match &carrier {
-            Some(carrier) => Value::new(rows.shape(), self.at_rest(rows.entries(), carrier)),
-            None => rows,
-        };
-        let rows = self.without_rounding(rows, &inner, carrier.as_ref());
+        let carried = self.carried_rows(&rows, &inner);
+        let rows = self.without_rounding(rows, &inner, None);
         let names: Vec<&str> = names.split_whitespace().collect();
         debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         self.rim(part.name, e.loc, &inner);
@@ -341,14 +340,13 @@ impl<'m> Lowering<'m> {
             let pushes = pushes.iter();
             let pushes = pushes.map(|text| self.written(text, e.loc, &inner).entries().to_vec());
             load.pushes = pushes.collect();
-            if let Some(carrier) = &carrier
-                && load.pushes.is_empty()
-                && load.acts_at_a_point()
-            {
-                load.pushes = self.axes_of(carrier);
-            }
         }
-        Value::Joint(Rc::new(Joint { rows, names, load }))
+        Value::Joint(Rc::new(Joint {
+            rows,
+            names,
+            load,
+            carried,
+        }))
     }
 
     /// The rows of a joint, 0 where they are what rounding leaves of offsets along an axis that add up to the same for both of its points.

@@ -22,6 +22,8 @@ pub(super) struct Known {
     pub(super) names: Vec<&'static str>,
     /// The load of a joint between bodies.
     pub(super) load: Option<Load>,
+    /// The rows in axes of the ground, where they are written as if what carries the joint were at rest.
+    pub(super) ground: Vec<Id>,
 }
 
 /// What the load of a joint on its second body is read from.
@@ -37,12 +39,23 @@ pub(super) struct Load {
     at: Option<Vec<Id>>,
     /// What the first rows push the second body with for a multiplier of 1; none where they do along the axes.
     pub(super) pushes: Vec<Vec<Id>>,
+    /// Whether these are axes that turn with what carries the joint.
+    turned: bool,
 }
 
 impl Load {
-    /// Whether it is a force at a point, with or without a moment.
-    pub(super) fn acts_at_a_point(&self) -> bool {
-        self.at.is_some()
+    /// Has rows that push along axes push along these.
+    pub(super) fn turn(&mut self, axes: Vec<Vec<Id>>) {
+        if self.at.is_some() && self.pushes.is_empty() {
+            (self.pushes, self.turned) = (axes, true);
+        }
+    }
+
+    /// Has rows that push along axes push along those of the ground.
+    pub(super) fn turn_back(&mut self) {
+        if std::mem::take(&mut self.turned) {
+            self.pushes.clear();
+        }
     }
 
     /// Whether `place` depends on the coordinates of the body.
@@ -76,6 +89,7 @@ impl Load {
             sign,
             at,
             pushes: Vec::new(),
+            turned: false,
         })
     }
 }
@@ -100,12 +114,14 @@ impl<'m> Lowering<'m> {
         shape: &[usize],
         names: Vec<&'static str>,
         load: Option<Load>,
+        ground: Vec<Id>,
     ) {
         let known = Known {
             rows: (first..self.constraints.len()).map(Some).collect(),
             shape: shape.to_vec(),
             names,
             load,
+            ground,
         };
         self.known.insert(name, known);
     }
@@ -234,6 +250,7 @@ impl<'m> Lowering<'m> {
             shape,
             names,
             load,
+            ..
         }) = self.known.get(text)
         else {
             return Value::Error;

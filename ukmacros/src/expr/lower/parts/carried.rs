@@ -19,7 +19,27 @@ pub(super) struct Carrier {
     ones: BTreeSet<usize>,
 }
 
-impl Lowering<'_> {
+/// The rows of a joint as if what carries its bodies were at rest.
+pub(in crate::expr::lower) struct Carried {
+    pub(in crate::expr::lower) rows: Vec<Id>,
+    /// The axes of the ground as they turn with the carrier, along which rows that are along axes push then.
+    pub(in crate::expr::lower) axes: Vec<Vec<Id>>,
+}
+
+impl<'m> Lowering<'m> {
+    /// These rows of a joint as if what carries its bodies were at rest, if anything does. Rows that parameters alone decide are none: what
+    /// they say is told by the axes of the ground.
+    pub(super) fn carried_rows(&mut self, rows: &Value, part: &Env<'m>) -> Option<Carried> {
+        let carrier = self.carrier(part)?;
+        let still = Value::new(rows.shape(), self.at_rest(rows.entries(), &carrier));
+        let rows = self.without_rounding(still, part, Some(&carrier));
+        let decided = |id: &Id| self.graph.uses(*id).constant() && !self.graph.is_zero(*id);
+        (!rows.entries().iter().any(decided)).then(|| Carried {
+            rows: rows.entries().to_vec(),
+            axes: self.axes_of(&carrier),
+        })
+    }
+
     /// What carries the bodies of a part with these arguments; nothing where it is the ground, where there is but one body, or where what
     /// else the part is given depends on how the carrier moves.
     pub(super) fn carrier(&self, part: &Env<'_>) -> Option<Carrier> {
