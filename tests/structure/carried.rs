@@ -97,7 +97,7 @@ linkage_in_the_plane! { AlongWritten, { q: inner(rocker.at([0.5, 0]) - rod.at([0
 
 /// A linkage that a function closes, which may be a joint, or one with something added to it.
 macro_rules! hooked {
-    ($name:ident, $hook:expr) => {
+    ($name:ident, { $($hook:tt)* }) => {
         ukcore::multibody! {
             $name {
                 bodies {
@@ -106,7 +106,7 @@ macro_rules! hooked {
                     planar rod { mass: 0.7, inertia: 0.02, centre: [0.35, 0] }
                     planar rocker { mass: 1.1, inertia: 0.03, centre: [0.25, 0] }
                 }
-                let hook = $hook;
+                let hook = $($hook)*;
                 tree {
                     o: pin(cart.at([0, 0]), crank.at([0, 0]))
                     p: pin(crank.at([0.3, 0]), rod.at([0, 0]))
@@ -119,8 +119,8 @@ macro_rules! hooked {
         }
     };
 }
-hooked! { Hooked, |p, q| pin(p, q) + [0, 0.1] }
-hooked! { HookedWritten, |p, q| q - p + [0, 0.1] }
+hooked! { Hooked, { |p, q| pin(p, q) + [0, 0.1] } }
+hooked! { HookedWritten, { |p, q| q - p + [0, 0.1] } }
 
 /// States of the mechanism that satisfy its constraints, all ways round and moving, where the coordinates called so are held.
 fn states(prepared: &Prepared, held: &[&str]) -> Vec<State> {

@@ -1,7 +1,7 @@
 //! Starts that tell of some coordinates, near which they are, where freedoms are left: all else follows, wherever the ground's points are.
 
 use tests::assert_close;
-use ukcore::{Mechanism, Prepared};
+use ukcore::Prepared;
 
 /// Mechanisms about a point of the ground, with what is to be 0 in starts that meet what they tell.
 macro_rules! about {
@@ -80,8 +80,8 @@ about! {
         spatial crank { mass: 1, inertia: [0.01, 0.01, 0.01], centre: [0.1, 0, 0] }
         spatial block { mass: 1, inertia: [0.01, 0.01, 0.01] }
     } {
-        shaft: hinge(ground.at([ox, oy, 0]), crank.at([0, 0, 0]), [0, 0, 1])
-        guide: slider(ground.at([ox, oy, 0.3]), block.at([0, 0, 0]), [1, 0, 0])
+        shaft: hinge(ground.at([o[0], o[1], 0]), crank.at([0, 0, 0]), [0, 0, 1])
+        guide: slider(ground.at([o[0], o[1], 0.3]), block.at([0, 0, 0]), [1, 0, 0])
         bar: rod(crank.at([0.2, 0, 0]), block.at([0, 0, 0]), 0.6)
     } [crank.e3 - sin(0.4), block.e1] {
         crank.e0 near cos(0.4);
