@@ -3,9 +3,11 @@
 use tests::{assert_all_close, assert_close};
 use ukcore::{Mechanism, Prepared, Simulation, State, assemble};
 
-/// A four-bar linkage of bodies in space whose axes have the direction `$axis`, closed by a joint some rows of which always hold.
+/// A four-bar linkage of bodies in space whose axes have the direction `$axis`, closed by a joint some rows of which always hold; with bars
+/// in one plane, or beside each other.
 macro_rules! four_bar_in_space {
-    ($name:ident, $axis:tt, { $($closed:tt)* }) => {
+    ($name:ident, $axis:tt, $closed:tt) => { four_bar_in_space! { $name, $axis, [0, 0, 0], $closed } };
+    ($name:ident, $axis:tt, [$crank:expr, $rod:expr, $rocker:expr], { $($closed:tt)* }) => {
         ukcore::multibody! {
             $name {
                 params { g = 9.81 }
@@ -16,9 +18,9 @@ macro_rules! four_bar_in_space {
                 }
                 gravity { [0, -g, 0] }
                 tree {
-                    o: hinge(ground.at([0, 0, 0]), crank.at([0, 0, 0]), $axis)
-                    p: hinge(crank.at([0.3, 0, 0]), rod.at([0, 0, 0]), $axis)
-                    r: hinge(ground.at([0.6, 0, 0]), rocker.at([0, 0, 0]), $axis)
+                    o: hinge(ground.at([0, 0, $crank]), crank.at([0, 0, 0]), $axis)
+                    p: hinge(crank.at([0.3, 0, $rod]), rod.at([0, 0, 0]), $axis)
+                    r: hinge(ground.at([0.6, 0, $rocker]), rocker.at([0, 0, 0]), $axis)
                 }
                 holonomic { $($closed)* }
                 start open { o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
@@ -31,25 +33,8 @@ four_bar_in_space! { Inclined, [0, 1, 2], { q: hinge(rod.at([0.7, 0, 0]), rocker
 four_bar_in_space! { Slipping, [0, 1, 2], { q: cylinder(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 1, 2]) } }
 four_bar_in_space! { Joined, [0, 1, 2], { q: rod.at([0.7, 0, 0]) = rocker.at([0.5, 0, 0]) } }
 
-ukcore::multibody! {
-    /// The same with bars beside each other, whose offsets add up to the same in all digits but the last.
-    Offset {
-        params { g = 9.81 }
-        bodies {
-            spatial crank { mass: 1.0, inertia: [0.01, 0.03, 0.03], centre: [0.15, 0, 0] }
-            spatial rod { mass: 0.7, inertia: [0.01, 0.02, 0.02], centre: [0.35, 0, 0] }
-            spatial rocker { mass: 1.1, inertia: [0.01, 0.03, 0.03], centre: [0.25, 0, 0] }
-        }
-        gravity { [0, -g, 0] }
-        tree {
-            o: hinge(ground.at([0, 0, 0.1]), crank.at([0, 0, 0]), [0, 0, 1])
-            p: hinge(crank.at([0.3, 0, 0.2]), rod.at([0, 0, 0]), [0, 0, 1])
-            r: hinge(ground.at([0.6, 0, 0.3]), rocker.at([0, 0, 0]), [0, 0, 1])
-        }
-        holonomic { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 0, 1]) }
-        start open { o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
-    }
-}
+// Offsets that add up to the same in all digits but the last.
+four_bar_in_space! { Offset, [0, 0, 1], [0.1, 0.2, 0.3], { q: hinge(rod.at([0.7, 0, 0]), rocker.at([0.5, 0, 0]), [0, 0, 1]) } }
 
 /// The same linkage on a trunk that floats, or hangs on a ball, with a crank that is driven on.
 macro_rules! linkage_on_a_trunk {

@@ -65,9 +65,10 @@ linkage_in_space! { BalancedWritten, { s: ball(ground.at([0, 0, 0]), trunk.at([0
 
 /// A linkage of the plane on a cart that turns.
 macro_rules! linkage_in_the_plane {
-    ($name:ident, { $($closed:tt)* }, $pull:expr) => {
+    ($name:ident, { $($let:tt)* }, { $($closed:tt)* }, $pull:expr) => {
         ukcore::multibody! {
             $name {
+                $($let)*
                 bodies {
                     planar cart { mass: 2.0, inertia: 0.3, centre: [0.1, 0.1] }
                     planar crank { mass: 1.0, inertia: 0.03, centre: [0.15, 0] }
@@ -86,6 +87,7 @@ macro_rules! linkage_in_the_plane {
             }
         }
     };
+    ($name:ident, $closed:tt, $pull:expr) => { linkage_in_the_plane! { $name, {}, $closed, $pull } };
 }
 linkage_in_the_plane! { Flat, { q: pin(rod.at([0.7, 0]), rocker.at([0.5, 0])) }, reaction(q) }
 linkage_in_the_plane! { FlatWritten, { q: rod.at([0.7, 0]) = rocker.at([0.5, 0]) }, -reaction(q) }
@@ -95,32 +97,9 @@ linkage_in_the_plane! { SidedWritten, { q: rocker.at([0.5, 0]) - rod.at([0.7, 0]
 linkage_in_the_plane! { Along, { q: inner(pin(rod.at([0.7, 0]), rocker.at([0.5, 0])), [1, 0.3]) = 0.1 }, [reaction(q), 0] }
 linkage_in_the_plane! { AlongWritten, { q: inner(rocker.at([0.5, 0]) - rod.at([0.7, 0]), [1, 0.3]) = 0.1 }, [reaction(q), 0] }
 
-/// A linkage that a function closes, which may be a joint, or one with something added to it.
-macro_rules! hooked {
-    ($name:ident, { $($hook:tt)* }) => {
-        ukcore::multibody! {
-            $name {
-                bodies {
-                    planar cart { mass: 2.0, inertia: 0.3, centre: [0.1, 0.1] }
-                    planar crank { mass: 1.0, inertia: 0.03, centre: [0.15, 0] }
-                    planar rod { mass: 0.7, inertia: 0.02, centre: [0.35, 0] }
-                    planar rocker { mass: 1.1, inertia: 0.03, centre: [0.25, 0] }
-                }
-                let hook = $($hook)*;
-                tree {
-                    o: pin(cart.at([0, 0]), crank.at([0, 0]))
-                    p: pin(crank.at([0.3, 0]), rod.at([0, 0]))
-                    r: pin(cart.at([0.6, 0]), rocker.at([0, 0]))
-                }
-                holonomic { q: hook(rod.at([0.7, 0]), rocker.at([0.5, 0])) = [0, 0] }
-                output { pull = reaction(q) }
-                start open { o.angle = 1.0; p.angle near -0.7; r.angle near 1.1 }
-            }
-        }
-    };
-}
-hooked! { Hooked, { |p, q| pin(p, q) + [0, 0.1] } }
-hooked! { HookedWritten, { |p, q| q - p + [0, 0.1] } }
+// A function that closes it may be a joint, or one with something added to it.
+linkage_in_the_plane! { Hooked, { let hook = |p, q| pin(p, q) + [0, 0.1]; }, { q: hook(rod.at([0.7, 0]), rocker.at([0.5, 0])) = [0, 0] }, reaction(q) }
+linkage_in_the_plane! { HookedWritten, { let hook = |p, q| q - p + [0, 0.1]; }, { q: hook(rod.at([0.7, 0]), rocker.at([0.5, 0])) = [0, 0] }, reaction(q) }
 
 /// States of the mechanism that satisfy its constraints, all ways round and moving, where the coordinates called so are held.
 fn states(prepared: &Prepared, held: &[&str]) -> Vec<State> {

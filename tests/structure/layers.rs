@@ -157,6 +157,7 @@ fn ukcore() {
             "start",
             "model",
             "linearise",
+            "displacements",
             "modes",
             "nearby",
             "branches",

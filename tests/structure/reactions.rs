@@ -1,7 +1,5 @@
 //! Reactions in expressions: by Newton and Euler for each joint, where they are not unique, and beside the solver's multipliers.
 
-use std::f64::consts::PI;
-
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
 use tests::{Random, assert_all_close, assert_close};
 use ukcore::solver::{Formula, SolverOptions};
@@ -582,107 +580,5 @@ fn loops_of_a_tree_have_reactions() {
         bodies.outputs(0.0, &pinned.q, &pinned.v, &mut of_bodies);
         assert_all_close("reaction", &of_tree[..2], &of_bodies, 1e-10);
         assert_eq!(of_tree[..2], of_tree[2..]);
-    }
-}
-
-/// The bicycle of docs/spatial.md with a heading, and rolling friction that its load makes at the rear wheel.
-macro_rules! bicycle {
-    ($($name:ident { $($sections:tt)* } start { $($start:tt)* })*) => {$(
-        ukcore::multibody! {
-            pub $name {
-                params { w = 1.02, c = 0.08, tilt = PI / 10, r[2] = [0.3, 0.35], g = 9.81, turn = 0.0, mu = 0.004 }
-                let hub = [[0, 0, r[0]], [w, 0, r[1]]];
-                let q = rotz(turn);
-                let head = [cos(turn / 2), sin(turn / 2)];
-                bodies {
-                    spatial rear { mass: 2, inertia: [0.0603, 0.12, 0.0603], centre: hub[0] }
-                    spatial front { mass: 3, inertia: [0.1405, 0.28, 0.1405], centre: hub[1] }
-                    spatial frame { mass: 85, inertia: [9.2, 11, 2.8, 0, -2.4, 0], centre: [0.3, 0, 0.9] }
-                    spatial fork { mass: 4, inertia: [0.05892, 0.06, 0.00708, 0, 0.00756, 0], centre: [0.9, 0, 0.7] }
-                }
-                gravity { [0, 0, -g] }
-                $($sections)*
-                nonholonomic {
-                    grip[0]: rolls(rear.at(hub[0]), [0, 1, 0], r[0]), grip[1]: rolls(front.at(hub[1]), [0, 1, 0], r[1])
-                }
-                nonideal {
-                    torque(frame, rear, friction(rear.spin[1] - frame.spin[1], mu * r[0] * abs(reaction(touch[0])[2]))
-                        * frame.along([0, 1, 0]))
-                }
-                output { load = (reaction(touch[0]) + reaction(grip[0]))[2], x = inner(q * [1, 0, 0], frame.centre) }
-                start upright(speed = 4.0, lean_rate = 0.5) {
-                    $($start)*
-                    frame.centre = q * [0.3, 0, 0.9]; dot(frame.centre) = q * [speed, -0.9 * lean_rate, 0];
-                    frame.omega = q * [lean_rate, 0, 0]; frame.e0 near head[0]; frame.e3 near head[1]
-                }
-            }
-        }
-    )*};
-}
-
-bicycle! {
-    Bicycle {
-        holonomic {
-            rear_axle: hinge(frame.at(hub[0]), rear.at(hub[0]), [0, 1, 0])
-            front_axle: hinge(fork.at(hub[1]), front.at(hub[1]), [0, 1, 0])
-            steering: hinge(frame.at([w + c, 0, 0]), fork.at([w + c, 0, 0]), [-sin(tilt), 0, cos(tilt)])
-            touch[0]: disc(rear.at(hub[0]), [0, 1, 0], r[0]), touch[1]: disc(front.at(hub[1]), [0, 1, 0], r[1])
-        }
-    } start {
-        rear.centre near q * hub[0]; front.centre near q * hub[1]; fork.centre near q * [0.9, 0, 0.7];
-        rear.e0 near head[0]; rear.e3 near head[1]; front.e0 near head[0]; front.e3 near head[1];
-        fork.e0 near head[0]; fork.e3 near head[1]; fork.omega = q * [lean_rate, 0, 0];
-    }
-    BicycleOfTree {
-        tree {
-            rear_axle: hinge(frame.at(hub[0]), rear.at(hub[0]), [0, 1, 0])
-            steering: hinge(frame.at([w + c, 0, 0]), fork.at([w + c, 0, 0]), [-sin(tilt), 0, cos(tilt)])
-            front_axle: hinge(fork.at(hub[1]), front.at(hub[1]), [0, 1, 0])
-        }
-        holonomic { touch[0]: disc(rear.at(hub[0]), [0, 1, 0], r[0]), touch[1]: disc(front.at(hub[1]), [0, 1, 0], r[1]) }
-    } start { dot(steering.angle) = 0; }
-}
-
-/// Straight ahead nothing is accelerated to the side, and in steady motion nothing at all: what rows are met by is rounding, and tells
-/// nothing of their multipliers.
-#[test]
-fn loads_of_what_is_not_accelerated_are_known() {
-    fn ridden<M: Mechanism>(of: &M, start: State, lean_rate: f64) -> (usize, f64) {
-        let mut out = [0.0; 2];
-        of.prepared().outputs(0.0, &start.q, &start.v, &mut out);
-        let mut solver = Solver::new(of, SolverOptions::default());
-        let found = solver.solve(0.0, &start.q, &start.v).unwrap();
-        // Under touch[0], touch[1] and two times two of grip.
-        let last = found.multipliers.len();
-        assert_close("load", out[0], found.multipliers[last - 6], 1e-10);
-        if lean_rate == 0.0 {
-            // The moment about the front contact.
-            let moment = 2.0 * 1.02 + 85.0 * 0.72 + 4.0 * 0.12;
-            assert_close("share of the weight", out[0], 9.81 * moment / 1.02, 1e-10);
-        }
-        assert_eq!(lost_reactions(of.prepared(), &start), None);
-        let run = Simulation::new(of.prepared()).start(start).until(0.3);
-        let run = run.unwrap_or_else(|end| panic!("{}", end.error));
-        (
-            run.work().fallbacks,
-            *run.output("x").unwrap().last().unwrap(),
-        )
-    }
-    for lean_rate in [0.0, 0.5] {
-        let options = [("lean_rate", lean_rate)].into();
-        let mut ways = Vec::new();
-        for turn in [0.0, 1e-9, 0.1, 0.5 * PI, 3.0] {
-            let (mut rows, mut tree) = (Bicycle::default(), BicycleOfTree::default());
-            (rows.turn, tree.turn) = (turn, turn);
-            let start = rows.start("upright", &options).expect("a start");
-            let (fallbacks, way) = ridden(&rows, start, lean_rate);
-            assert_eq!(fallbacks, 0);
-            ways.push(way);
-            let start = tree.start("upright", &options).expect("a start");
-            ways.push(ridden(&tree, start, lean_rate).1);
-        }
-        for way in &ways {
-            assert_close("way", *way, ways[0], 1e-7);
-        }
     }
 }

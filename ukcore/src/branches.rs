@@ -7,10 +7,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search, State, assembled, held, scatter, weight};
+use crate::displacements::{constraint_matrix, null_space_holding, quaternions, units};
 use crate::error::Error;
 use crate::manifold::{At, Level};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, null_space_holding, quaternions, units};
 use crate::naming;
 use crate::random::Random;
 use crate::spectrum::singular;

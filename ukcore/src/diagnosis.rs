@@ -6,11 +6,11 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::State;
-use crate::error::Error;
-use crate::mechanism::Prepared;
-use crate::modes::{
+use crate::displacements::{
     INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
 };
+use crate::error::Error;
+use crate::mechanism::Prepared;
 use crate::naming::PARTICIPATION;
 use crate::nearby::neighbours;
 use crate::solver::{Accepted, Solver, SolverOptions};

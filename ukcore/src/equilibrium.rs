@@ -9,13 +9,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search as Assembly, State, assembled, held};
+use crate::displacements::{constraint_matrix, mass_matrix, null_space_holding, units};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{
-    constraint_matrix, is_symmetric, linear_motion, mass_matrix, null_space_holding, units,
-};
+use crate::modes::{is_symmetric, linear_motion};
 use crate::naming::undirected;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
@@ -155,6 +154,19 @@ struct Place {
     potential: Option<f64>,
 }
 
+/// Ways along which a place is stiff, orthonormal, and what drives it along each.
+struct Ways {
+    along: DMatrix<f64>,
+    /// r along each.
+    shares: DVector<f64>,
+    /// The magnitude of the stiffness along each, or what it counts as.
+    curved: DVector<f64>,
+    /// How much stiffness the force makes where ways bend, in a careful search.
+    bent: f64,
+    /// The largest force where nothing stiff holds the place near.
+    loose: f64,
+}
+
 impl Place {
     fn is_balanced(&self) -> bool {
         self.force.amax() <= BALANCED * self.parts
@@ -189,15 +201,21 @@ impl Place {
         0.5 * self.chord_from(before).dot(&(&self.push + &before.push))
     }
 
-    /// Newton's step, where coordinates are as large as `size`; downhill, where forces have a potential; and the largest force where
-    /// nothing stiff holds it near. With `damping` it is shorter, in a careful search most where it is weak. `None` for a stiffness that is
-    /// not finite.
-    fn step(
-        &self,
-        stiffness: &DMatrix<f64>,
-        (size, careful): (f64, bool),
-        damping: f64,
-    ) -> Option<(DVector<f64>, f64)> {
+    /// The ways along which the place is stiff, where coordinates are as large as `size`; mistrusted where little is stiff, in a `careful`
+    /// search. `None` for a stiffness that is not finite.
+    fn ways(&self, stiffness: &DMatrix<f64>, size: f64, careful: bool) -> Option<Ways> {
+        let (along, shares, mut curved) = match self.potential {
+            Some(_) => {
+                let eigen = spectrum::symmetric(symmetric(stiffness))?;
+                let shares = eigen.eigenvectors.tr_mul(&self.force);
+                (eigen.eigenvectors, shares, eigen.eigenvalues)
+            }
+            None => {
+                let svd = spectrum::singular(stiffness.clone(), true, true)?;
+                let (u, v) = (svd.u?, svd.v_t?);
+                (v.transpose(), u.tr_mul(&self.force), svd.singular_values)
+            }
+        };
         let largest = stiffness.amax();
         // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding; where nothing is stiff, as on
         // the way between the top and the bottom of a hoop, it is moved as far as coordinates are large.
@@ -214,32 +232,37 @@ impl Place {
                 && self.potential.is_some()
                 && share * share * largest > GAINED * force * force * curvature
         };
-        let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
-            let mut loose = 0.0_f64;
-            for (share, curvature) in shares.iter_mut().zip(curvatures.iter()) {
-                let curved = match curvature.abs() {
-                    x if x > FLAT * largest && x < WEAK * largest && gains(*share, x) => x + bent,
-                    x if x > FLAT * largest => x,
-                    x => {
-                        if share.abs() > NEAR * size * x {
-                            loose = loose.max(share.abs());
-                        }
-                        largest.max(least)
+        let mut loose = 0.0_f64;
+        for (share, curved) in shares.iter().zip(curved.iter_mut()) {
+            *curved = match curved.abs() {
+                x if x > FLAT * largest && x < WEAK * largest && gains(*share, x) => x + bent,
+                x if x > FLAT * largest => x,
+                x => {
+                    if share.abs() > NEAR * size * x {
+                        loose = loose.max(share.abs());
                     }
-                };
-                *share /= (curved + damping * bent) * (1.0 + damping);
-            }
-            (shares, loose)
-        };
-        if self.potential.is_none() {
-            let svd = spectrum::singular(stiffness.clone(), true, true)?;
-            let (u, v) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
-            let (shares, loose) = shared(u.tr_mul(&self.force), &svd.singular_values);
-            return Some((v.tr_mul(&shares), loose));
+                    largest.max(least)
+                }
+            };
         }
-        let eigen = spectrum::symmetric(symmetric(stiffness))?;
-        let (shares, loose) = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
-        Some((eigen.eigenvectors * shares, loose))
+        Some(Ways {
+            along,
+            shares,
+            curved,
+            bent,
+            loose,
+        })
+    }
+}
+
+impl Ways {
+    /// Newton's step; downhill, where forces have a potential. With `damping` it is shorter, in a careful search most where it is weak.
+    fn step(&self, damping: f64) -> DVector<f64> {
+        let stiff = |curved: f64| (curved + damping * self.bent) * (1.0 + damping);
+        let shares = self
+            .shares
+            .zip_map(&self.curved, |share, curved| share / stiff(curved));
+        &self.along * shares
     }
 }
 
@@ -264,14 +287,14 @@ impl Search {
             };
             let firm = firm.get_or_insert(stiffness.amax());
             *firm = firm.max(here.force.norm() / self.size);
-            let step = |damping: f64| here.step(&stiffness, (self.size, self.careful), damping);
             // So far off that nothing is finite any more there is no rest position.
-            let Some((full, loose)) = step(0.0) else {
+            let Some(ways) = here.ways(&stiffness, self.size, self.careful) else {
                 break;
             };
+            let full = ways.step(0.0);
             // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
             let still = full.amax() <= NOWHERE * self.size && here.force.norm() <= first;
-            if here.is_balanced() || still && loose <= BALANCED * here.parts {
+            if here.is_balanced() || still && ways.loose <= BALANCED * here.parts {
                 self.is_smooth(&here, &full, &stiffness, (first, *firm))?;
                 let stability = self.stability(&here, &stiffness)?;
                 return Ok(Ok(Equilibrium {
@@ -279,8 +302,7 @@ impl Search {
                     stability,
                 }));
             }
-            let damped = if damping > 0.0 { step(damping) } else { None };
-            let step = damped.map_or(full, |(step, _)| step);
+            let step = ways.step(damping);
             match self.moved(&here, &step) {
                 Ok(there) if there.improves_on(&here) && self.follows(&here, &step, &there) => {
                     here = there;

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{State, held};
+use crate::displacements::{complement, constraint_matrix, decompose, measure, units};
 use crate::error::{Error, quoted};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{complement, constraint_matrix, decompose, measure, units};
 use crate::naming;
 use crate::noise::Noise;
 use crate::scan::largest;

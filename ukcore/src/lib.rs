@@ -33,6 +33,7 @@ pub mod assemble;
 mod branches;
 mod dense;
 mod diagnosis;
+mod displacements;
 pub mod equations;
 mod equilibrium;
 mod error;

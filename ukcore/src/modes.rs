@@ -6,9 +6,12 @@
 //! eigenvalues of R = Zᵀ F Z are those of the mechanism alone: n coordinates bound by constraints have no eigenvalues of their own.
 //! Coordinates are measured by the root of their inertia, so that metres and radians are comparable.
 
-use nalgebra::{ColPivQR, Complex, DMatrix, DVector, Dyn};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::assemble::State;
+use crate::displacements::{
+    complement, constraint_matrix, null_space, pivoted, quaternions, units,
+};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::measure::Measure;
@@ -16,11 +19,8 @@ use crate::mechanism::Prepared;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
-use crate::spec::Solve;
 use crate::spectrum::eigenvalues;
 
-/// Rows of constraints, each of length 1, that keep less beside the others follow from them.
-pub(crate) const INDEPENDENT: f64 = 1e-9;
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
 /// was found by iteration; and what is nearer to rest than this share of its size.
 const REST: f64 = 1e-9;
@@ -359,160 +359,6 @@ fn flow(found: &Linearisation, units: &DVector<f64>) -> (DMatrix<f64>, f64) {
     flow.view_mut((n, n), (n, n))
         .copy_from(&(by_velocity / pace));
     (flow, pace)
-}
-
-/// M at `state`.
-pub(crate) fn mass_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> {
-    let n = mech.spec().n();
-    let mut mass = vec![0.0; n * n];
-    mech.mass_matrix(state.t, &state.q, &mut mass);
-    DMatrix::from_vec(n, n, mass)
-}
-
-/// A at `state`.
-pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> {
-    let (n, m) = (mech.spec().n(), mech.spec().m());
-    let mut jacobian = vec![0.0; m * n];
-    mech.jacobian(state.t, &state.q, &state.v, &mut jacobian);
-    DMatrix::from_vec(m, n, jacobian)
-}
-
-/// No coordinate counts as lighter than this share of the heaviest, by the roots of inertias, as one may be whose inertia vanishes at some
-/// states.
-const LIGHTEST: f64 = 1e-6;
-
-/// What coordinates are measured by at `state`: 1/√M_jj. Those of a [quaternion](quaternions) have one unit, by the mean inertia of the
-/// directions in which it turns, so that it does not depend on the orientation by which numbers the body is where it is. By the
-/// [`Measure`], which makes coordinates of different units comparable, none is lighter than [`LIGHTEST`] says, and one without inertia is
-/// as heavy as the heaviest that shares a row of A with it, or as any: by a number that did not change with the units it would be next to
-/// nothing beside others in some of them, and these beside it in others.
-pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
-    let mass = mass_matrix(mech, state);
-    let mut inertia = mass.diagonal();
-    for (_, all) in quaternions(mech, state) {
-        let whole: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
-        let mean = whole / (all.len() - 1) as f64;
-        all.iter().for_each(|j| inertia[*j] = mean);
-    }
-    let measure = Measure::at(mech, state.t, [&state.q, &state.v]).scale;
-    let roots = inertia.map(|m| m.max(0.0).sqrt());
-    let heaviest = |all: &mut dyn Iterator<Item = usize>| {
-        let own = all.map(|i| roots[i] * measure[i]);
-        Some(own.fold(0.0, f64::max)).filter(|root| *root > 0.0)
-    };
-    let of_all = heaviest(&mut (0..roots.len())).unwrap_or(1.0);
-    let structure = &mech.spec().structure;
-    let beside = |j: usize| {
-        let rows = structure.jacobian_pattern.iter().filter(|(_, i)| *i == j);
-        heaviest(&mut rows.flat_map(|(c, _)| structure.in_row(*c))).unwrap_or(of_all)
-    };
-    roots.map_with_location(|j, _, root| {
-        let least = if root > 0.0 {
-            LIGHTEST * of_all
-        } else {
-            beside(j)
-        };
-        root.max(least / measure[j]).recip()
-    })
-}
-
-/// A product with M is none below this share of what its factors could make.
-const WEIGHTLESS: f64 = 1e-12;
-
-/// The constraints that keep the length of a quaternion, with its coordinates, at `state`: along their gradient nothing has inertia, as the
-/// kinetic energy of a body knows nothing of the quaternion's length.
-pub(crate) fn quaternions(mech: &Prepared, state: &State) -> Vec<(usize, Vec<usize>)> {
-    let (mass, rows) = (mass_matrix(mech, state), constraint_matrix(mech, state));
-    let structure = &mech.spec().structure;
-    let Solve {
-        regular, turned, ..
-    } = structure.solve;
-    let candidates = [regular, turned].concat().into_iter();
-    let candidates = candidates.map(|c| (c, structure.in_row(c).collect::<Vec<_>>()));
-    let weightless = |(c, all): &(usize, Vec<usize>)| {
-        let inertia: f64 = all.iter().map(|j| mass[(*j, *j)]).sum();
-        let size = all.iter().fold(0.0_f64, |sum, j| sum.hypot(rows[(*c, *j)]));
-        let force = &mass * rows.row(*c).transpose();
-        let mut forces = force.iter().enumerate();
-        let none = forces.all(|(i, f)| {
-            f.abs() <= WEIGHTLESS * size * (inertia * mass[(i, i)].max(inertia)).sqrt()
-        });
-        all.len() > 1 && inertia > 0.0 && none
-    };
-    candidates.filter(weightless).collect()
-}
-
-/// Divides each of `rows` that is not zero by its length.
-pub(crate) fn normalise(rows: &mut DMatrix<f64>) {
-    for mut row in rows.row_iter_mut() {
-        let length = row.norm();
-        if length > 0.0 {
-            row /= length;
-        }
-    }
-}
-
-/// Measures the columns of `rows` by `units`; those of velocities, which follow those of coordinates, by the same ones.
-pub(crate) fn measure(rows: &mut DMatrix<f64>, units: &DVector<f64>) {
-    for (k, mut column) in rows.column_iter_mut().enumerate() {
-        column *= units[k % units.len()];
-    }
-}
-
-/// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
-pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
-    let n = rows.ncols();
-    let (decomposed, pivots) = decompose(rows, units);
-    complement(n, &decomposed, independent(&pivots))
-}
-
-/// [`null_space`] of displacements that leave the coordinates `held` where they are.
-pub(crate) fn null_space_holding(
-    held: &[usize],
-    rows: DMatrix<f64>,
-    units: &DVector<f64>,
-) -> DMatrix<f64> {
-    let m = rows.nrows();
-    let mut rows = rows.resize_vertically(m + held.len(), 0.0);
-    for (k, j) in held.iter().enumerate() {
-        rows[(m + k, *j)] = 1.0;
-    }
-    null_space(rows, units)
-}
-
-/// How many of [decomposed](decompose) rows do not follow from others, by their pivots.
-pub(crate) fn independent(pivots: &[f64]) -> usize {
-    pivots.iter().filter(|x| **x > INDEPENDENT).count()
-}
-
-/// [`null_space`] of rows of length `n` that are [decomposed](decompose), of which so many do not follow from others.
-pub(crate) fn complement(
-    n: usize,
-    decomposed: &ColPivQR<f64, Dyn, Dyn>,
-    rank: usize,
-) -> DMatrix<f64> {
-    let mut turned = DMatrix::identity(n, n);
-    decomposed.q_tr_mul(&mut turned);
-    turned.rows(rank, n - rank).transpose()
-}
-
-/// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps
-/// beside those before it.
-pub(crate) fn decompose(
-    mut rows: DMatrix<f64>,
-    units: &DVector<f64>,
-) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
-    measure(&mut rows, units);
-    normalise(&mut rows);
-    pivoted(&rows)
-}
-
-/// [`decompose`] of rows that are measured and of the lengths that they count with.
-pub(crate) fn pivoted(rows: &DMatrix<f64>) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
-    let decomposed = rows.transpose().col_piv_qr();
-    let r = decomposed.r();
-    let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());
-    (decomposed, pivots.collect())
 }
 
 /// Whether no coordinate accelerates, beside what accelerations here are made up of: `flow`, by times of which `pace` are a second.

@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use crate::assemble::State;
+use crate::displacements::{constraint_matrix, null_space, units};
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{constraint_matrix, null_space, units};
 use crate::random::Random;
 use crate::scan::{all_finite, largest, or_one};
 

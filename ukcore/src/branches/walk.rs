@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Search, State};
+use crate::displacements::{constraint_matrix, null_space_holding};
 use crate::manifold::At;
-use crate::modes::{constraint_matrix, null_space_holding};
 use crate::spectrum::singular;
 
 use super::Ways;

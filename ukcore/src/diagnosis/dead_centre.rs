@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 use crate::assemble::State;
+use crate::displacements::{constraint_matrix, null_space, units};
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, null_space, units};
 use crate::scan::{largest, or_one};
 use crate::spec::Spec;
 use crate::spectrum::singular;

@@ -1,8 +1,8 @@
 //! Bodies so light beside others that what holds them in place all but follows from what holds these.
 
 use crate::assemble::State;
+use crate::displacements::{constraint_matrix, mass_matrix};
 use crate::mechanism::Prepared;
-use crate::modes::{constraint_matrix, mass_matrix};
 
 /// A body is light that has less than this part of what another one has.
 const LIGHT: f64 = 1e-4;

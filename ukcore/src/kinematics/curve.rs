@@ -6,8 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::displacements::{INDEPENDENT, measure, pivoted};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{INDEPENDENT, measure, pivoted};
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::zero::locate;
 

@@ -2,8 +2,8 @@
 
 use super::{Declared, Findings, along, constants};
 use crate::assemble::State;
+use crate::displacements::{constraint_matrix, mass_matrix};
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
-use crate::modes::{constraint_matrix, mass_matrix};
 use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar, Sloped, Slopes};
 use crate::scan::{largest, or_one};
