@@ -65,10 +65,13 @@ impl Equations<'_> {
 
     #[inline(always)]
     fn evaluate(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
-        let at = self.at(s, y);
-        self.switches.look(self.problem, at);
-        let result = self.problem.acceleration(at, out);
-        result.map_err(|error| self.course.note(at, error))
+        if !self.switches.is_empty() {
+            let at = self.at(s, y);
+            self.switches.look(self.problem, at);
+        }
+        // A state kept for the case of an error would be copied in any.
+        let result = self.problem.acceleration(self.at(s, y), out);
+        result.map_err(|error| self.course.note(self.at(s, y), error))
     }
 
     /// [`Problem::jacobian`] at (s, y), with q̈ into `acceleration` and 0 for derivatives that do not exist: iterations that use it go on

@@ -93,7 +93,7 @@ impl Switches {
     /// y' is to be evaluated at this state.
     #[inline]
     pub(super) fn look(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
-        if self.is_empty() || self.doubt {
+        if self.doubt {
             return;
         }
         problem.switching(at, &mut self.values);

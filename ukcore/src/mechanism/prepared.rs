@@ -41,18 +41,20 @@ macro_rules! table {
     }) => {
         $(#[$about])*
         pub trait $Table<S>: $Before<S> {
-            $($(#[$doc])* fn $name(&self, prepared: &[S], $($x: $X),*) $(-> $out)?;)*
+            $($(#[$doc])* fn $name(&self, $($x: $X,)* prepared: &[S]) $(-> $out)?;)*
         }
 
         impl<M: Mechanism, S: Scalar> $Table<S> for Of<M> {
-            $(fn $name(&self, prepared: &[S], $($x: $X),*) $(-> $out)? {
+            // Arguments in this order are handed on one by one: two that lie beside each other on the stack would be read at once, as long as
+            // they have not got there.
+            $(fn $name(&self, $($x: $X,)* prepared: &[S]) $(-> $out)? {
                 M::$name(prepared, $($x),*)
             })*
         }
 
         impl<S: Scalar, C: ?Sized + $Table<S>> Prepared<S, C> {
             $($(#[$doc])* #[inline] pub fn $name(&self, $($x: $X),*) $(-> $out)? {
-                self.code.$name(&self.values, $($x),*)
+                self.code.$name($($x,)* &self.values)
             })*
         }
     };

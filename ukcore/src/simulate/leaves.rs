@@ -136,16 +136,29 @@ impl Leaves {
 
     /// Squares of the lengths of rows, for A at a state.
     pub(super) fn squares(&self, a: &[f64], squares: &mut Vec<f64>) {
-        self.compare([a; 3], 0.0, squares, &mut vec![0.0; self.rows.len()]);
+        squares.resize(self.rows.len(), 0.0);
+        let mut begin = 0;
+        for row in &self.rows {
+            let places = self.places[begin..row.end].iter();
+            begin = row.end;
+            squares[row.row] = places.fold(0.0, |sum, i| sum + a[*i as usize] * a[*i as usize]);
+        }
     }
 
-    /// The change of each row from one state to another, squared, and the product of what it is at both, for A at these.
-    pub(super) fn changes(&self, a: [&[f64]; 2]) -> Vec<[f64; 2]> {
-        let mut changes = vec![[0.0; 2]; self.rows.len()];
-        self.each([a[0], a[0], a[1]], 0.0, |row, _, all| {
-            changes[row.row] = [all.change, all.product];
-        });
-        changes
+    /// Calls `f` with the number of each row, the square of its change from one state to another, and the product of what it is at both,
+    /// for A at these.
+    pub(super) fn changes(&self, [from, to]: [&[f64]; 2], mut f: impl FnMut(usize, f64, f64)) {
+        let mut begin = 0;
+        for row in &self.rows {
+            let (mut change, mut product) = (0.0, 0.0);
+            for place in &self.places[begin..row.end] {
+                let (x, y) = (from[*place as usize], to[*place as usize]);
+                change += (y - x) * (y - x);
+                product += x * y;
+            }
+            begin = row.end;
+            f(row.row, change, product);
+        }
     }
 
     /// Calls `f` with each row, and sums over the entries of its own and over all of them, for A at three states.

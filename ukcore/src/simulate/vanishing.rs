@@ -119,11 +119,15 @@ pub(super) struct RowWatch {
     measure: Option<Measure>,
     /// Rows that may vanish: those without an entry that stays as it is.
     may: Vec<bool>,
+    /// How many rows, the first ones, are holonomic.
+    holonomic: usize,
     /// A where the run began.
     first: Vec<f64>,
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
+    /// A at places of the step in hand.
+    looks: [Matrix; LOOKS.len()],
     /// A where it was looked at before that.
     past: Matrix,
     /// Products of the rows of both.
@@ -280,51 +284,92 @@ impl RowWatch {
 
     /// The first row that is reversed between states within the step from `old` to `new`, even if it is as it was at its end.
     fn within(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
-        let holonomic = &self.may[..mech.spec().holonomic];
-        if !holonomic.contains(&true) {
+        if !self.may[..self.holonomic].contains(&true) {
             return None;
         }
-        let (measure, leaves) = (self.measure.as_ref(), &self.leaves);
-        let at = |part: f64| between_states(old, new, part);
-        let look = |part: f64| {
-            let state = at(part);
-            let matrix = Matrix::at(mech, Sample::from(&state), measure, leaves);
-            (part, Rc::new(matrix))
-        };
-        let looks = LOOKS.map(look);
-        // A part of the step: by which share of its greater length each row changes on it, and which one is reversed, if one is.
-        let part = |from: (f64, Rc<Matrix>), to: (f64, Rc<Matrix>)| {
-            let changes = leaves.changes([&from.1.entries, &to.1.entries]);
-            let rows = holonomic.iter().zip(changes).enumerate();
-            let (mut shares, mut reversed) = (vec![0.0; holonomic.len()], None);
-            for (c, (_, [change, product])) in rows.filter(|(_, (may, _))| **may) {
-                shares[c] = (change / from.1.squares[c].max(to.1.squares[c])).sqrt();
-                reversed = reversed.or((product < 0.0).then_some(c));
+        let mut looks = std::mem::take(&mut self.looks);
+        for (part, matrix) in LOOKS.into_iter().zip(&mut looks) {
+            matrix.t = f64::NAN;
+            self.look_at(mech, Sample::from(&between_states(old, new, part)), matrix);
+        }
+        let (mut still, mut turns) = (true, vec![0.0; self.holonomic]);
+        for pair in looks.windows(2).rev() {
+            still &= (self.turned([&pair[0], &pair[1]], |c, share| turns[c] += share)).0;
+        }
+        self.turns = turns.into_iter().fold(0.0, f64::max);
+        let found = (!still).then(|| self.first_reversed(mech, old, new, &looks));
+        self.looks = looks;
+        found.flatten()
+    }
+
+    /// Takes A at a state, and the lengths of its rows.
+    fn look_at(&self, mech: &Prepared, at: Sample<'_>, matrix: &mut Matrix) {
+        matrix.take(mech, at, self.measure.as_ref());
+        matrix.measure(&self.leaves);
+    }
+
+    /// Whether no holonomic row that may vanish changes by much between two states, and the first that is reversed there; calls `each` with
+    /// such rows and the share of their greater length by which they change.
+    fn turned(
+        &self,
+        [from, to]: [&Matrix; 2],
+        mut each: impl FnMut(usize, f64),
+    ) -> (bool, Option<usize>) {
+        let (mut still, mut reversed) = (true, None::<usize>);
+        (self.leaves).changes([&from.entries, &to.entries], |c, change, product| {
+            if !self.may[c] || c >= self.holonomic {
+                return;
             }
-            ([from, to], shares, reversed)
-        };
-        // What is left to look at, the first part last.
-        let pairs = looks.windows(2).rev();
-        let mut parts: Vec<_> = pairs
-            .map(|pair| part(pair[0].clone(), pair[1].clone()))
+            let share = (change / from.squares[c].max(to.squares[c])).sqrt();
+            still &= share <= CHANGE;
+            if product < 0.0 {
+                reversed = Some(reversed.map_or(c, |first| first.min(c)));
+            }
+            each(c, share);
+        });
+        (still, reversed)
+    }
+
+    /// The first row that is reversed on parts of the step from `old` to `new` so short that it does not only turn, with A at some places
+    /// of it.
+    fn first_reversed(
+        &self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+        looks: &[Matrix],
+    ) -> Option<Vanishing> {
+        let at = |part: f64| between_states(old, new, part);
+        let places = LOOKS.into_iter().zip(looks);
+        let places: Vec<_> = places
+            .map(|(part, matrix)| (part, Rc::new(matrix.clone())))
             .collect();
-        let turns = |c: usize| -> f64 { parts.iter().map(|(_, shares, _)| shares[c]).sum() };
-        self.turns = (0..holonomic.len()).map(turns).fold(0.0, f64::max);
-        while let Some(([from, to], shares, reversed)) = parts.pop() {
-            if shares.iter().all(|share| *share <= CHANGE) {
+        // What is left to look at, the first part last.
+        let pairs = places.windows(2).rev();
+        let mut parts: Vec<_> = pairs
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect();
+        while let Some((from, to)) = parts.pop() {
+            let (still, reversed) = self.turned([&from.1, &to.1], |_, _| ());
+            if still {
                 continue;
             }
             if to.0 - from.0 > 0.5_f64.powi(HALVINGS) {
-                let between = look(0.5 * (from.0 + to.0));
-                parts.push(part(between.clone(), to));
-                parts.push(part(from, between));
+                let middle = 0.5 * (from.0 + to.0);
+                let mut between = Matrix::default();
+                self.look_at(mech, Sample::from(&at(middle)), &mut between);
+                let between = (middle, Rc::new(between));
+                parts.push((between.clone(), to));
+                parts.push((from, between));
                 continue;
             }
             let Some(row) = reversed else {
                 continue;
             };
-            let [first, .., last] = &looks;
-            let ends = first.1.length(row).min(last.1.length(row));
+            let [first, .., last] = looks else {
+                continue;
+            };
+            let ends = first.length(row).min(last.length(row));
             let near = at((from.0 - BEFORE).max(0.0));
             let least = from.1.length(row).min(to.1.length(row));
             let t = at(0.5 * (from.0 + to.0)).t;
@@ -400,6 +445,7 @@ impl RowWatch {
             self.leaves = Leaves::new(mech, &self.seen.entries);
             self.first.clone_from(&self.seen.entries);
             let m = mech.spec().m();
+            self.holonomic = mech.spec().holonomic;
             self.may = vec![true; m];
             for (c, i) in mech.spec().structure.jacobian_fixed {
                 self.may[*c] &= self.first[i * m + c] == 0.0;
