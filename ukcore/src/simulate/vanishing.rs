@@ -50,8 +50,8 @@ const INDEPENDENT: f64 = 1e-9;
 /// direction.
 pub(super) const BEFORE: f64 = 0.01;
 
-/// Parts of a step at which rows are looked at first, so unevenly that no turns come out even at all of them.
-const LOOKS: [f64; 5] = [0.0, 0.19, 0.45, 0.68, 1.0];
+/// Parts of a step at which rows are looked at first, beside its ends, so unevenly that no turns come out even at all of them.
+const LOOKS: [f64; 3] = [0.19, 0.45, 0.68];
 
 /// A step over which a combination of rows is reversed is halved so often in search of the place.
 const HALVINGS: i32 = 8;
@@ -126,8 +126,8 @@ pub(super) struct RowWatch {
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
-    /// A at places of the step in hand.
-    looks: [Matrix; LOOKS.len()],
+    /// A at the start of the step in hand, if that was not looked at before, and at [`LOOKS`] within it.
+    looks: [Matrix; 1 + LOOKS.len()],
     /// A where it was looked at before that.
     past: Matrix,
     /// Products of the rows of both.
@@ -288,22 +288,31 @@ impl RowWatch {
             return None;
         }
         let mut looks = std::mem::take(&mut self.looks);
-        for (part, matrix) in LOOKS.into_iter().zip(&mut looks) {
-            matrix.t = f64::NAN;
-            self.look_at(mech, Sample::from(&between_states(old, new, part)), matrix);
+        let [start, rest @ ..] = &mut looks;
+        if self.seen.t != old.t {
+            self.look_at(mech, old, start);
         }
+        let mut state = old.to_state();
+        for (part, matrix) in LOOKS.into_iter().zip(rest) {
+            go_between(old, new, part, &mut state);
+            self.look_at(mech, Sample::from(&state), matrix);
+        }
+        let [start, a, b, c] = &looks;
+        let known = self.seen.t == old.t;
+        let all = [if known { &self.seen } else { start }, a, b, c, &self.here];
         let (mut still, mut turns) = (true, vec![0.0; self.holonomic]);
-        for pair in looks.windows(2).rev() {
-            still &= (self.turned([&pair[0], &pair[1]], |c, share| turns[c] += share)).0;
+        for pair in all.windows(2).rev() {
+            still &= (self.turned([pair[0], pair[1]], |c, share| turns[c] += share)).0;
         }
+        let found = (!still).then(|| self.first_reversed(mech, old, new, all));
         self.turns = turns.into_iter().fold(0.0, f64::max);
-        let found = (!still).then(|| self.first_reversed(mech, old, new, &looks));
         self.looks = looks;
         found.flatten()
     }
 
     /// Takes A at a state, and the lengths of its rows.
     fn look_at(&self, mech: &Prepared, at: Sample<'_>, matrix: &mut Matrix) {
+        matrix.t = f64::NAN;
         matrix.take(mech, at, self.measure.as_ref());
         matrix.measure(&self.leaves);
     }
@@ -337,10 +346,11 @@ impl RowWatch {
         mech: &Prepared,
         old: Sample<'_>,
         new: Sample<'_>,
-        looks: &[Matrix],
+        looks: [&Matrix; 2 + LOOKS.len()],
     ) -> Option<Vanishing> {
         let at = |part: f64| between_states(old, new, part);
-        let places = LOOKS.into_iter().zip(looks);
+        let parts = [0.0].into_iter().chain(LOOKS).chain([1.0]);
+        let places = parts.zip(looks);
         let places: Vec<_> = places
             .map(|(part, matrix)| (part, Rc::new(matrix.clone())))
             .collect();
@@ -366,9 +376,7 @@ impl RowWatch {
             let Some(row) = reversed else {
                 continue;
             };
-            let [first, .., last] = looks else {
-                continue;
-            };
+            let [first, .., last] = looks;
             let ends = first.length(row).min(last.length(row));
             let near = at((from.0 - BEFORE).max(0.0));
             let least = from.1.length(row).min(to.1.length(row));
@@ -606,13 +614,15 @@ impl RowWatch {
 
 /// The state at a part of the step from `old` to `new`, on the cubics through both.
 pub(super) fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> State {
-    let (n, h) = (old.q.len(), new.t - old.t);
-    let mut state = State {
-        t: old.t + part * h,
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut state = old.to_state();
+    go_between(old, new, part, &mut state);
+    state
+}
+
+/// Puts the state at a part of the step from `old` to `new`, on the cubics through both, into `state`.
+fn go_between(old: Sample<'_>, new: Sample<'_>, part: f64, state: &mut State) {
+    let h = new.t - old.t;
+    state.t = old.t + part * h;
     let ends = [old, new].map(|end| [end.q, end.v]);
     between(part, h, ends, [&mut state.q, &mut state.v]);
-    state
 }
