@@ -45,8 +45,8 @@ macro_rules! table {
         }
 
         impl<M: Mechanism, S: Scalar> $Table<S> for Of<M> {
-            // Arguments in this order are handed on one by one: two that lie beside each other on the stack would be read at once, as long as
-            // they have not got there.
+            // Arguments in this order are handed on one by one: two that lie beside each other on the stack would be read at
+            // once, while they have not got there.
             $(fn $name(&self, $($x: $X,)* prepared: &[S]) $(-> $out)? {
                 M::$name(prepared, $($x),*)
             })*
