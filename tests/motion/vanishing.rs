@@ -264,6 +264,54 @@ fn beside_an_apex_the_motion_swings_round_and_in_it_the_cone_is_named() {
     }
 }
 
+/// A heavy point goes up its cone along a line, over the apex and back, or turns before it. Both passages may lie in one step, at whose ends
+/// the row is as if there had been none.
+#[test]
+fn a_motion_over_an_apex_and_back_is_named() {
+    for method in METHODS {
+        for &tolerance in tolerances(method) {
+            for (from, g) in [
+                (0.5, 9.81),
+                (1.0, 9.81),
+                (0.55, 5.0),
+                (2.0, 9.81),
+                (1.0, 0.7),
+            ] {
+                for (k, top) in [-0.5, -0.1, 0.03, 0.1, 0.25, 0.6, 2.0]
+                    .into_iter()
+                    .enumerate()
+                {
+                    let speed = f64::sqrt(g * (from + from * top));
+                    let mut run = simulation(
+                        Cone { g },
+                        &[-from, 0.0, -from],
+                        &[speed, 0.0, speed],
+                        method,
+                        tolerance,
+                    );
+                    if k % 2 == 0 {
+                        run = run.at(vec![]);
+                    }
+                    let place = format!("{method}, {tolerance:e}: {g} from {from} to {top}");
+                    let way = |t: f64| -from + speed * t - 0.25 * g * t * t;
+                    match run.until(4.0 * speed / g) {
+                        Ok(run) => {
+                            assert!(top < 0.0, "{place}: goes on");
+                            let end = run.last().expect("an end");
+                            assert!((end.q[0] - way(end.t)).abs() < 1e-6, "{place}");
+                        }
+                        Err(failure) => {
+                            let apex = (speed - f64::sqrt(speed * speed - g * from)) * 2.0 / g;
+                            named(&failure, "cone", apex);
+                            assert!(top > 0.0, "{place}: {failure}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// `failure` is for the constraint called `name`, not after `t`.
 fn named(failure: &ukcore::simulate::Failure, name: &str, t: f64) {
     let Error::At {

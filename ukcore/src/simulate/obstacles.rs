@@ -200,9 +200,8 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             ends: [from, to],
             otherwise,
         } => {
-            let met = |position: &Singular| {
-                position.gap >= 0.0 && (position.t - from) * (to - position.t) > 0.0
-            };
+            // Also where nothing tells whether the motion turns there: shorter steps do.
+            let met = |position: &Singular| (position.t - from) * (to - position.t) > 0.0;
             let found = crossing::counts(mech, &row)
                 .then(|| crossing::find(mech, &row.near, Some(&row)))
                 .flatten();

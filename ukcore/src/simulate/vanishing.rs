@@ -50,7 +50,8 @@ const INDEPENDENT: f64 = 1e-9;
 /// direction.
 pub(super) const BEFORE: f64 = 0.01;
 
-/// Parts of a step at which rows are looked at first, beside its ends, so unevenly that no turns come out even at all of them.
+/// Parts of a step at which rows are looked at first, beside its ends and where the motion turns back, so unevenly that no turns come out
+/// even at all of them.
 const LOOKS: [f64; 3] = [0.19, 0.45, 0.68];
 
 /// A step over which a combination of rows is reversed is halved so often in search of the place.
@@ -126,8 +127,8 @@ pub(super) struct RowWatch {
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
-    /// A at the start of the step in hand, if that was not looked at before, and at [`LOOKS`] within it.
-    looks: [Matrix; 1 + LOOKS.len()],
+    /// A at the start of the step in hand, if that was not looked at before, and at places within it.
+    looks: [Matrix; 2 + LOOKS.len()],
     /// A where it was looked at before that.
     past: Matrix,
     /// Products of the rows of both.
@@ -189,7 +190,7 @@ impl RowWatch {
         self.turns = 0.0;
         // Over a step as long as this, rows may be as they were at its start after any number of turns.
         let long = first || (new.t - old.t).abs() > (self.due - self.seen.t).abs();
-        let within = long.then(|| self.within(mech, old, new)).flatten();
+        let within = long.then(|| self.within(mech, old, new, rests)).flatten();
         let reversed = self.reversed().next().is_some() || self.share == 0.0;
         if reversed && self.look_back(mech, old) {
             self.compare(mech);
@@ -259,11 +260,7 @@ impl RowWatch {
 
     /// The row that is all but zero where the motion comes to rest on its way from `old` to `new`, if one is.
     fn resting(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
-        let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
-            let v = between_states(old, new, part).v;
-            Ok(dot(&v, new.v) - dot(&v, old.v))
-        };
-        let Ok(part) = locate(turned, 0.0, 1.0);
+        let part = turning(old, new);
         let state = between_states(old, new, part);
         let matrix = |at| Matrix::at(mech, at, self.measure.as_ref(), &self.leaves);
         let between = matrix(Sample::from(&state));
@@ -283,28 +280,40 @@ impl RowWatch {
     }
 
     /// The first row that is reversed between states within the step from `old` to `new`, even if it is as it was at its end.
-    fn within(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+    fn within(
+        &mut self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+        rests: bool,
+    ) -> Option<Vanishing> {
         if !self.may[..self.holonomic].contains(&true) {
             return None;
         }
+        let mut parts = LOOKS.to_vec();
+        if rests {
+            parts.push(turning(old, new));
+            parts.sort_by(f64::total_cmp);
+        }
         let mut looks = std::mem::take(&mut self.looks);
         let [start, rest @ ..] = &mut looks;
-        if self.seen.t != old.t {
+        let known = self.seen.t == old.t;
+        if !known {
             self.look_at(mech, old, start);
         }
         let mut state = old.to_state();
-        for (part, matrix) in LOOKS.into_iter().zip(rest) {
-            go_between(old, new, part, &mut state);
+        for (part, matrix) in parts.iter().zip(rest) {
+            go_between(old, new, *part, &mut state);
             self.look_at(mech, Sample::from(&state), matrix);
         }
-        let [start, a, b, c] = &looks;
-        let known = self.seen.t == old.t;
-        let all = [if known { &self.seen } else { start }, a, b, c, &self.here];
+        let mut all = vec![(0.0, if known { &self.seen } else { &looks[0] })];
+        all.extend(parts.into_iter().zip(&looks[1..]));
+        all.push((1.0, &self.here));
         let (mut still, mut turns) = (true, vec![0.0; self.holonomic]);
         for pair in all.windows(2).rev() {
-            still &= (self.turned([pair[0], pair[1]], |c, share| turns[c] += share)).0;
+            still &= (self.turned([pair[0].1, pair[1].1], |c, share| turns[c] += share)).0;
         }
-        let found = (!still).then(|| self.first_reversed(mech, old, new, all));
+        let found = (!still).then(|| self.first_reversed(mech, old, new, &all));
         self.turns = turns.into_iter().fold(0.0, f64::max);
         self.looks = looks;
         found.flatten()
@@ -346,13 +355,12 @@ impl RowWatch {
         mech: &Prepared,
         old: Sample<'_>,
         new: Sample<'_>,
-        looks: [&Matrix; 2 + LOOKS.len()],
+        looks: &[(f64, &Matrix)],
     ) -> Option<Vanishing> {
         let at = |part: f64| between_states(old, new, part);
-        let parts = [0.0].into_iter().chain(LOOKS).chain([1.0]);
-        let places = parts.zip(looks);
+        let places = looks.iter();
         let places: Vec<_> = places
-            .map(|(part, matrix)| (part, Rc::new(matrix.clone())))
+            .map(|(part, matrix)| (*part, Rc::new((*matrix).clone())))
             .collect();
         // What is left to look at, the first part last.
         let pairs = places.windows(2).rev();
@@ -376,8 +384,7 @@ impl RowWatch {
             let Some(row) = reversed else {
                 continue;
             };
-            let [first, .., last] = looks;
-            let ends = first.length(row).min(last.length(row));
+            let ends = self.here.length(row).min(looks[0].1.length(row));
             let near = at((from.0 - BEFORE).max(0.0));
             let least = from.1.length(row).min(to.1.length(row));
             let t = at(0.5 * (from.0 + to.0)).t;
@@ -617,6 +624,16 @@ pub(super) fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> Sta
     let mut state = old.to_state();
     go_between(old, new, part, &mut state);
     state
+}
+
+/// The part of the step from `old` to `new` at which a motion that goes back turns.
+fn turning(old: Sample<'_>, new: Sample<'_>) -> f64 {
+    let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
+        let v = between_states(old, new, part).v;
+        Ok(dot(&v, new.v) - dot(&v, old.v))
+    };
+    let Ok(part) = locate(turned, 0.0, 1.0);
+    part
 }
 
 /// Puts the state at a part of the step from `old` to `new`, on the cubics through both, into `state`.
