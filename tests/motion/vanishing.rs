@@ -264,8 +264,8 @@ fn beside_an_apex_the_motion_swings_round_and_in_it_the_cone_is_named() {
     }
 }
 
-/// A heavy point goes up its cone along a line, over the apex and back, or turns before it. Both passages may lie in one step, at whose ends
-/// the row is as if there had been none.
+/// A heavy point goes up its cone along a line, over the apex and back, or turns before it. Both passages may lie in one step, at whose
+/// ends the row is as if there had been none.
 #[test]
 fn a_motion_over_an_apex_and_back_is_named() {
     for method in METHODS {

@@ -1,5 +1,7 @@
 //! Declared starts: what they hold, what they leave to the constraints, and what goes wrong.
 
+use std::f64::consts::PI;
+
 use tests::FourBar;
 use tests::{Random, assert_all_close, assert_close, at_rest};
 use ukcore::assemble::residuals;
@@ -58,6 +60,27 @@ ukcore::multibody! {
         start turning(w = 0.3) { [foot.e0, foot.e2] near [0.8, 0.6]; top.omega = [w, 1, -2]; bar.omega = w }
         start spinning(w = 0.3) { [foot.e0, foot.e2] near [0.8, 0.6]; top.spin = [w, 1, -2] }
         output { omega = top.omega, spin = top.spin }
+    }
+}
+
+ukcore::multibody! {
+    /// A slider-crank held by its piston.
+    Piston {
+        params { r = 0.1, l = 0.3, off = 0.0, m = 1.0 }
+        bodies {
+            planar crank { mass: m, inertia: 0.01 * m * sq(r / 0.1) }
+            planar rod { mass: 0.4 * m, inertia: 3e-3 * m * sq(r / 0.1), centre: [l / 2.0, 0] }
+            planar piston { mass: 0.5 * m }
+        }
+        holonomic {
+            main: pin(ground.at([off, 0]), crank.at([0, 0]))
+            pin: pin(crank.at([r, 0]), rod.at([0, 0]))
+            wrist: pin(rod.at([l, 0]), piston.at([0, 0]))
+            guide: slider(ground.at([0, 0]), piston.at([0, 0]), [1, 0])
+        }
+        start pushed(x = 0.4, v = 1.0, near = 0.1) {
+            piston.x = x; dot(piston.x) = v; crank.x near off; crank.angle near near; rod.angle near -near / 3.0
+        }
     }
 }
 
@@ -380,4 +403,62 @@ fn what_is_assembled_is_a_start() {
     tries::<zeros::Cubic>();
     tries::<zeros::Beside>();
     tries::<zeros::Sums>();
+}
+
+/// At a dead centre the piston has no velocity, from wherever the crank is looked for: what the search leaves of its angle is rounding, and
+/// no velocity is computed from that. Beside it there is one, by the closed form.
+#[test]
+fn at_a_dead_centre_no_velocity_is_told() {
+    for (unit, off) in [
+        (1.0, 0.0),
+        (1e3, 0.0),
+        (1e-6, 0.0),
+        (1.0, 30.0),
+        (1.0, -4e3),
+    ] {
+        let piston = Piston {
+            r: 0.1 * unit,
+            l: 0.3 * unit,
+            off,
+            m: 3.0,
+        };
+        let start = |x: f64, near: f64, v: f64| {
+            piston.start("pushed", &[("x", off + x), ("v", v), ("near", near)].into())
+        };
+        let dead = [(0.1_f64 + 0.3) * unit, (0.3 - 0.1) * unit];
+        for (k, x) in dead.into_iter().enumerate() {
+            for near in [0.0, 1e-9, 1e-3, -0.1, 0.5] {
+                let near = if k == 0 { near } else { PI - near };
+                for v in [unit, -1e-3 * unit] {
+                    let place = format!("{unit:e}, {off}: {x}, {near}, {v:e}");
+                    let error = start(x, near, v).expect_err(&place);
+                    let Error::NotAssembled { level, held, .. } = &error else {
+                        panic!("{place}: {error}");
+                    };
+                    assert_eq!(*level, "velocity", "{place}: {error}");
+                    assert!(
+                        held.iter().any(|name| name.contains("piston.x")),
+                        "{place}: {error}"
+                    );
+                }
+                // At rest it may be there.
+                let rest =
+                    start(x, near, 0.0).unwrap_or_else(|error| panic!("{x}, {near}: {error}"));
+                assert!(rest.v.iter().all(|v| *v == 0.0));
+            }
+        }
+        for angle in [1e-3_f64, 0.1, 1.0, 3.0] {
+            let rod = -(angle.sin() / 3.0).asin();
+            let x = (0.1 * angle.cos() + 0.3 * rod.cos()) * unit;
+            let found = start(x, angle * 1.2_f64.min(3.1 / angle), unit).expect("a start");
+            let exact = 1.0 / (0.1 * (rod.tan() * angle.cos() - angle.sin()));
+            let rounding = 4e-15 * off.abs().max(unit) / unit;
+            assert_close(
+                "rate of the crank",
+                found.v[Piston::CRANK_ANGLE],
+                exact,
+                exact.abs() * rounding / angle.sin().powi(2),
+            );
+        }
+    }
 }

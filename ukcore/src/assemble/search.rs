@@ -1,14 +1,24 @@
 //! The search for q, then for q̇.
 
+use nalgebra::DMatrix;
+
 use super::by_parts::{ByParts, SHAKES, shake, weight};
 use super::{Held, State};
 use crate::error::Error;
 use crate::manifold::{At, Level, Manifold, Part, parts};
 use crate::mechanism::Prepared;
+use crate::noise::Noise;
+use crate::spectrum::singular;
 
 /// Projections of velocities of which a guess speaks: what the others' inertia, which counts for next to nothing, takes from them falls
 /// each time by the share for which it counts, in the end to rounding.
 const TIMES: usize = 3;
+
+/// Velocities that are this much larger than those wished for may be what rounding makes of a row that all but vanishes; singular values of
+/// less than this share are those of rows that others imply; and velocities that rounding changes by more than this share are lost.
+const SWEPT: f64 = 1e3;
+const IMPLIED: f64 = 1e-12;
+const LOST: f64 = 0.1;
 
 /// The search for q, then for q̇.
 pub(crate) struct Search {
@@ -67,7 +77,69 @@ impl Search {
             told.iter().for_each(|&j| v[j] = wish[j]);
             v = search.find(&at, &v)?;
         }
+        if search.is_swept(&wish, &v) && search.is_lost(mech, (guess.t, &q, &v), held) {
+            return Err(search.refused(&at, &wish));
+        }
         Ok(State { t: guess.t, q, v })
+    }
+
+    /// Whether velocities are far larger than those wished for.
+    fn is_swept(&self, wish: &[f64], v: &[f64]) -> bool {
+        let size = |v: &[f64]| {
+            let pairs = v.iter().zip(self.manifold.ease());
+            pairs.fold(0.0, |most: f64, (v, ease)| most.max((v / ease).abs()))
+        };
+        size(v) > SWEPT * size(wish)
+    }
+
+    /// Whether other velocities belong to positions that the constraints do not tell from q: at a dead centre the square of a coordinate
+    /// that is not held is all that they see of it.
+    fn is_lost(&mut self, mech: &Prepared, (t, q, v): (f64, &[f64], &[f64]), held: &Held) -> bool {
+        let (n, h) = (q.len(), mech.spec().holonomic);
+        let ease = self.manifold.ease().to_vec();
+        let moves = |j: &usize| !held.positions.contains(j);
+        let free: Vec<usize> = (0..n).filter(moves).collect();
+        let mut jacobian = vec![0.0; n * mech.spec().m()];
+        mech.jacobian(t, q, v, &mut jacobian);
+        let entry = |c: usize, k: usize| jacobian[free[k] * mech.spec().m() + c] * ease[free[k]];
+        let rows = DMatrix::from_fn(h, free.len(), entry);
+        let Some(svd) = singular(rows, true, true) else {
+            return false;
+        };
+        let mut unknown = vec![0.0; h];
+        let mut noise = Noise::new(mech);
+        noise.go(mech, t, [q, v], |_| [0.0; 2]);
+        noise.residual(&mut unknown);
+        let mut residual = vec![0.0; h];
+        mech.residual(t, q, &mut residual);
+        let pairs = unknown.iter_mut().zip(&residual);
+        pairs.for_each(|(unknown, r)| *unknown = r.abs().max(f64::EPSILON * *unknown));
+        let [Some(left), Some(right)] = [&svd.u, &svd.v_t] else {
+            return false;
+        };
+        let values = &svd.singular_values;
+        let least = (0..values.len()).filter(|k| values[*k] > IMPLIED * values.max());
+        let Some(least) = least.min_by(|a, b| values[*a].total_cmp(&values[*b])) else {
+            return false;
+        };
+        let (left, way) = (left.column(least), right.row(least));
+        let pairs = left.iter().zip(&unknown);
+        let off = pairs.map(|(u, r)| u.abs() * r).sum::<f64>() / values[least];
+        let mut beside = q.to_vec();
+        let pairs = free.iter().zip(way.iter());
+        pairs.for_each(|(j, way)| beside[*j] += off * way * ease[*j]);
+        let Ok(there) = self.find(&At::new(mech, Level::Velocity, t, &beside), v) else {
+            return true;
+        };
+        let norm = |v: &mut dyn Iterator<Item = f64>| -> f64 {
+            let pairs = v.zip(&ease);
+            pairs
+                .map(|(v, ease)| (v / ease).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
+        let change = norm(&mut there.iter().zip(v).map(|(a, b)| a - b));
+        change > LOST * norm(&mut v.iter().copied())
     }
 
     /// The solution where the equations fall apart, or have solutions that lie apart, next to the guess; `None` where they do neither, or
@@ -173,13 +245,18 @@ impl Search {
         if let Some(kept) = kept {
             return Ok(kept);
         }
-        Err(match self.manifold.refusal(at, &x) {
+        Err(self.refused(at, &x))
+    }
+
+    /// Why nothing next to `x` is a solution.
+    fn refused(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
+        match self.manifold.refusal(at, x) {
             Error::OffConstraint { level, constraints } => Error::NotAssembled {
                 level,
                 constraints,
                 held: Vec::new(),
             },
             error => error,
-        })
+        }
     }
 }
