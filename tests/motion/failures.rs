@@ -213,6 +213,43 @@ fn a_motion_that_ends_in_finite_time_ends_there_and_names_its_acceleration() {
     }
 }
 
+/// So it does late, where steps are lost in the rounding of the time before they are in their own.
+#[test]
+fn a_motion_that_ends_in_finite_time_does_so_late_too() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for t0 in [30.0, 1e3, -1e5, 1e7] {
+            let start = State {
+                t: t0,
+                q: vec![1.0, 1.0],
+                v: vec![0.0; 2],
+            };
+            let run = Simulation::new(Singular {
+                pull: 1.0,
+                push: 0.0,
+            })
+            .start(start);
+            let failure = run
+                .method(method)
+                .max_steps(20_000)
+                .until(t0 + 10.0)
+                .unwrap_err();
+            let (t, error) = place(&failure);
+            assert!((t - t0 - 1.0).abs() < 1e-6, "{method}: {t}");
+            let Error::StepTooSmall {
+                fastest: Some((name, acceleration)),
+                ..
+            } = error
+            else {
+                panic!("{method}, {t0}: {error}");
+            };
+            assert!(
+                name == "x" && *acceleration < -1e6,
+                "{method}, {t0}: {error}"
+            );
+        }
+    }
+}
+
 ukcore::multibody! {
     /// A planet.
     pub Orbit {

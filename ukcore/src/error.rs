@@ -175,8 +175,8 @@ pub enum Error {
     },
     /// The number of steps allowed was used up.
     #[error(
-        "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take \
-         `Method::Radau5` in place of an explicit method"
+        "{steps} steps were not enough; where forces are stiff, soften them or take `Method::Radau5` in place of an explicit method; else \
+         loosen the tolerance, or raise `max_steps`"
     )]
     TooManySteps {
         /// The number of steps that were allowed.

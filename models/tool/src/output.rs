@@ -293,12 +293,20 @@ pub(crate) fn csv<C: AsRef<[u8]>>(
 ) -> io::Result<()> {
     let mut names = names.into_iter().peekable();
     let mut table = csv::Writer::from_writer(out);
+    // As it came, for a reader that is gone is no failure.
+    let failed = |error: csv::Error| {
+        let told = error.to_string();
+        match error.into_kind() {
+            csv::ErrorKind::Io(error) => error,
+            _ => io::Error::other(told),
+        }
+    };
     // A record of nothing would be one of an empty text.
     if names.peek().is_some() {
-        table.write_record(names)?;
+        table.write_record(names).map_err(failed)?;
     }
     for row in rows {
-        table.write_record(row)?;
+        table.write_record(row).map_err(failed)?;
     }
     table.flush()
 }
@@ -399,5 +407,23 @@ mod tests {
             .expect("a directory below");
         drop(first);
         Directory::create(&path).expect("nobody any more");
+    }
+
+    #[test]
+    fn a_table_that_nobody_reads_on_is_told_as_such() {
+        struct Gone;
+        impl Write for Gone {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        // More than any buffer holds.
+        let rows = (0..100_000).map(|k| [k.to_string()]);
+        let error = csv(&mut Gone, ["k"], rows).expect_err("nobody reads");
+        assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
+        assert_eq!(Failure::stdout(&error).code(), 0);
     }
 }

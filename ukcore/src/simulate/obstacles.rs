@@ -45,6 +45,9 @@ const STILL: f64 = 64.0 * f64::EPSILON;
 /// outweighs the forces.
 const FAST: f64 = 4.0;
 
+/// Accelerations that are so many times those of the start are no matter of a late time.
+const GROWN: f64 = 1e6;
+
 /// A coordinate without mass that accelerates so many times as much as all that has mass, beside what is allowed, is left to itself.
 const LEFT_ALONE: f64 = 1e3;
 
@@ -171,6 +174,14 @@ fn too_fast(
             fastest: first.map(|i| (name(i), acceleration[i])),
         },
     }
+}
+
+/// Whether accelerations are out of all proportion to those of the start, as where a motion ends in finite time: at an early time it would
+/// end there, too.
+fn grew(solver: &mut Solver, start: Sample<'_>, acceleration: &[f64]) -> bool {
+    let mut first = vec![0.0; acceleration.len()];
+    let known = solver.acceleration(start.t, start.q, start.v, &mut first);
+    known.is_ok() && largest(acceleration) > GROWN * largest(&first)
 }
 
 /// The error of a motion that constraints do not let go on in the direction of its velocity: those which its next positions violate end
@@ -479,11 +490,13 @@ pub(super) fn explain(
     if obstacle && let Some(limit) = dead_centre(mechanism, &trouble.state, STANDS) {
         trouble.error = limit;
     }
-    if let Error::StepTooSmall { step, .. } = trouble.error {
+    if let Error::StepTooSmall { step, .. } | Error::TooLate { step, .. } = trouble.error {
         let State { t, q, v } = &trouble.state;
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
-        if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
+        let known = solver.acceleration(*t, q, v, &mut acceleration).is_ok();
+        let late = matches!(trouble.error, Error::TooLate { .. });
+        if known && (!late || grew(&mut solver, start, &acceleration)) {
             let terms = standstill::terms(&mut solver, &trouble.state, &acceleration, step);
             if !terms.is_empty() {
                 trouble.error = Error::Chattering { step, terms };
