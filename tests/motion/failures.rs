@@ -467,3 +467,56 @@ fn a_path_with_a_kink_is_told() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// Two rods to a slider, their joint without mass.
+    pub Elbow {
+        params { f = 5.0 }
+        coords { ex, ey, x }
+        mass { x: 1.0 }
+        force { x: f }
+        holonomic { upper: sq([ex, ey]) = 1, lower: sq([x - ex, ey]) = 1 }
+    }
+}
+
+/// Pulled straight, the joint has nothing that says how it goes on; before that the slider moves as if it were free.
+#[test]
+fn a_joint_without_mass_that_is_pulled_straight_is_named() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for (angle, f) in [(0.8_f64, 5.0), (0.8, 1e-3), (0.01, 5.0), (-1.3, 70.0)] {
+            let q = vec![angle.cos(), angle.sin(), 2.0 * angle.cos()];
+            let run = Simulation::new(Elbow { f }).start(State {
+                t: 0.0,
+                q,
+                v: vec![0.0; 3],
+            });
+            let straight = ((2.0 - 2.0 * angle.cos()) * 2.0 / f).sqrt();
+            let failure = run
+                .method(method)
+                .max_steps(100_000)
+                .until(2.0 * straight)
+                .unwrap_err();
+            let (t, error) = place(&failure);
+            assert!(
+                t <= straight && t > 0.9 * straight,
+                "{method}, {angle}: {failure}"
+            );
+            assert!(
+                failure.to_string().contains("`ey`"),
+                "{method}, {angle}: {failure}"
+            );
+            assert!(
+                matches!(error, Error::Underdetermined { .. }),
+                "{method}, {angle}: {failure}"
+            );
+            for sample in failure.trajectory.samples() {
+                let free = 2.0 * angle.cos() + 0.5 * f * sample.t * sample.t;
+                assert!(
+                    (sample.q[2] - free).abs() < 1e-7,
+                    "{method}, {angle}: {}",
+                    sample.t
+                );
+            }
+        }
+    }
+}

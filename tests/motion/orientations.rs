@@ -6,7 +6,7 @@ use tests::{Random, hunted, largest};
 use ukcore::equations::precise;
 use ukcore::manifold::Projector;
 use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Prepared, Solver};
+use ukcore::{Linearisation, Mechanism, Method, Prepared, Simulation, Solver, State};
 
 ukcore::multibody! {
     /// A body by its angular velocity, of which the kinetic energy knows nothing but the direction.
@@ -285,6 +285,66 @@ fn accelerations_near_the_identity_and_half_turns() {
     for found in [&found[0], &found[3]] {
         assert!(found.fallbacks < found.right / 8, "{found:?}");
     }
+}
+
+/// Runs begin there as elsewhere, and derivatives of accelerations change as little as the place does.
+#[test]
+fn runs_and_derivatives_near_the_identity() {
+    fn check<M: Mechanism>(steps: usize) {
+        let mechanism = M::default().prepared();
+        let at = |away: f64| {
+            let (b, c, d) = (away, 0.7 * away, -1.2 * away);
+            let [e0, e1, e2, e3] = normal([(1.0 - b * b - c * c - d * d).sqrt(), b, c, d]);
+            let [w1, w2, w3] = [1.0, 2.0, 3.0];
+            let v = vec![
+                0.5 * (-e1 * w1 - e2 * w2 - e3 * w3),
+                0.5 * (e0 * w1 + e2 * w3 - e3 * w2),
+                0.5 * (e0 * w2 + e3 * w1 - e1 * w3),
+                0.5 * (e0 * w3 + e1 * w2 - e2 * w1),
+            ];
+            State {
+                t: 0.0,
+                q: vec![e0, e1, e2, e3],
+                v,
+            }
+        };
+        let derivatives = |state: &State| {
+            let found = Linearisation::at(&mechanism, state).expect("derivatives");
+            [found.acceleration, found.by_position, found.by_velocity].concat()
+        };
+        let there = derivatives(&at(0.0));
+        for away in [0.0, 1e-300, 1e-16, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
+            let start = at(away);
+            let here = derivatives(&start);
+            for (found, expected) in here.iter().zip(&there) {
+                assert!(
+                    (found - expected).abs() < 1e3 * away + 1e-9,
+                    "{away:e}: {here:?}, {there:?}"
+                );
+            }
+            for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+                let run = Simulation::new(mechanism.clone())
+                    .start(start.clone())
+                    .method(method);
+                let run = run
+                    .tolerance(1e-7)
+                    .until(1.0)
+                    .unwrap_or_else(|error| panic!("{away:e}: {error}"));
+                assert!(
+                    run.work().steps < steps,
+                    "{method}, {away:e}: {:?}",
+                    run.work()
+                );
+                assert!(
+                    run.energy_drift() < 1e-5,
+                    "{method}, {away:e}: {:e}",
+                    run.energy_drift()
+                );
+            }
+        }
+    }
+    check::<Dumbbells>(200);
+    check::<Mixed>(200);
 }
 
 /// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt_for_orientations -- --ignored

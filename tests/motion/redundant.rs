@@ -10,6 +10,7 @@ mod mechanisms;
 mod mill;
 mod sarrus;
 mod sleigh;
+mod small;
 mod wheels;
 
 use mechanisms::SpatialFourBar;

@@ -91,7 +91,8 @@ pub enum Switching {
     /// at rest under dry friction, ends with [`Error::Chattering`].
     #[default]
     Located,
-    /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it.
+    /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it, in
+    /// steps of about the tolerance over the jump of the acceleration: one second at rest may take millions.
     Ignored,
 }
 
