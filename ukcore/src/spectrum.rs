@@ -9,8 +9,13 @@ use nalgebra::{Complex, DMatrix, DVector, Dyn, SVD};
 
 /// Iterations at most for each row or column; two or three are usual.
 const TURNS: usize = 60;
+/// Turns at most for each eigenvalue; of motions of very different speeds that are mixed some take a hundred.
+const SHIFTED: usize = 400;
 /// The number of turns without an eigenvalue found after which other shifts are tried, and entries that rounding leaves unknown are zero.
 const PATIENCE: usize = 10;
+/// Rounds at most in which rows and columns are made as large as each other; and what a change has to leave of both to be worth it.
+const ROUNDS: usize = 100;
+const SETTLED: f64 = 0.95;
 
 /// How many iterations `matrix` is given; `None` for one that is not finite.
 fn limit(matrix: &DMatrix<f64>) -> Option<usize> {
@@ -59,7 +64,7 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         return Some(values);
     }
     limit(matrix)?;
-    let mut h = matrix.clone().hessenberg().unpack_h();
+    let mut h = balanced(matrix.clone()).hessenberg().unpack_h();
     let unknown = f64::EPSILON * h.norm();
     let (mut end, mut turns) = (h.nrows(), 0);
     while end > 0 {
@@ -70,7 +75,7 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         match end - start {
             1 => values.push(Complex::new(h[(start, start)], 0.0)),
             2 => values.extend(pair(&h, start)),
-            _ if turns == TURNS => return None,
+            _ if turns == SHIFTED => return None,
             _ => {
                 let (trace, determinant) = shifts(&h, start, end, turns);
                 turn(&mut h, start, end, trace, determinant);
@@ -81,6 +86,31 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         (end, turns) = (start, 0);
     }
     Some(values)
+}
+
+/// `matrix` measured by powers of two such that each row and its column are about as large as each other, which changes no eigenvalue
+/// (Parlett & Reinsch, Numerische Mathematik 13 (1969), pp. 293–304): of what is slow beside the rest the frequency stands in both, not
+/// its square in one and 1 in the other, where rounding of the other parts would be more than it.
+fn balanced(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    for _ in 0..ROUNDS {
+        let mut settled = true;
+        for i in 0..matrix.nrows() {
+            let own = matrix[(i, i)].abs();
+            let row = matrix.row(i).lp_norm(1) - own;
+            let column = matrix.column(i).lp_norm(1) - own;
+            let factor = (0.5 * (row / column).log2()).round().exp2();
+            let smaller = column * factor + row / factor < SETTLED * (row + column);
+            if factor.is_normal() && smaller {
+                matrix.column_mut(i).scale_mut(factor);
+                matrix.row_mut(i).unscale_mut(factor);
+                settled = false;
+            }
+        }
+        if settled {
+            break;
+        }
+    }
+    matrix
 }
 
 /// The beginning of the last block without a zero below the diagonal that ends before `end`. Zero is what is below `unknown`, or rounding
@@ -217,6 +247,32 @@ mod tests {
             .map(|k| (0.1 * f64::from(k), 0.03 * f64::from(k * k % 7)))
             .collect();
         check(&each);
+    }
+
+    /// Squares of frequencies down to 1e-14 beside 1, each coordinate mixed with all others: the sum of the squares of all eigenvalues is
+    /// known.
+    #[test]
+    fn slow_motions_beside_fast_ones_have_theirs() {
+        for round in 0..400_i32 {
+            let n = 3 + round as usize % 10;
+            let size =
+                |i: usize| 10_f64.powf(-3.5 * (1.0 + ((i * i) as f64 + f64::from(round)).sin()));
+            let mixed = |i: usize, j: usize| 0.5 * ((i + j) as f64 + 0.3 * f64::from(round)).cos();
+            let stiffness = DMatrix::from_fn(n, n, |i, j| {
+                let own = if i == j { 1.0 + n as f64 } else { 0.0 };
+                size(i) * size(j) * (own + mixed(i, j))
+            });
+            let mut flow = DMatrix::zeros(2 * n, 2 * n);
+            flow.view_mut((0, n), (n, n)).fill_diagonal(1.0);
+            flow.view_mut((n, 0), (n, n)).copy_from(&-&stiffness);
+            let turned = DMatrix::from_fn(2 * n, 2 * n, |i, j| ((3 * i + 5 * j * j) as f64).sin());
+            let turned = turned.qr().q();
+            for matrix in [flow.clone(), turned.tr_mul(&(flow * &turned))] {
+                let found = eigenvalues(&matrix).expect("an end");
+                let sum: Complex<f64> = found.iter().map(|x| x * x).sum();
+                assert!((sum + 2.0 * stiffness.trace()).norm() < 1e-11, "{round}");
+            }
+        }
     }
 
     /// Cyclic permutations stand still under the shifts of the last two rows.
