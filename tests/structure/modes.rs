@@ -1,6 +1,7 @@
 //! Modes about rest positions and steady motions, against closed forms.
 
 mod defective;
+mod graded;
 
 use tests::{assert_all_close, assert_close, at_rest};
 use ukcore::studies::Mode;

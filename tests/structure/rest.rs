@@ -1,5 +1,6 @@
 //! Rest positions, against statics.
 
+mod falls;
 mod idle;
 mod tops;
 

@@ -146,6 +146,41 @@ pub(crate) fn complement(
     turned.rows(rank, n - rank).transpose()
 }
 
+/// Rows of constraints, each of length 1, that keep less beside the others are near a singular position: whatever they do is beside it.
+const SINGULAR: f64 = 1e-6;
+
+/// Whether a combination of rows is reversed on the way from the rows `before` to those `after`: then the way goes over a singular
+/// position, or beside one in a step so long that it may have come to what is behind it.
+///
+/// Let S be the symmetric part of A₀ W A₁ᵀ, with the rows at both ends and any positive W. If S is positive definite, then no combination
+/// vanishes on the straight way from A₀ to A₁; and one that goes through zero is reversed behind that place, and S is not definite. Rows
+/// that follow from others before, or all but do, do not count. W is such that no column hides others, whatever their units.
+pub(crate) fn reversed(mut before: DMatrix<f64>, mut after: DMatrix<f64>) -> bool {
+    for c in 0..before.nrows() {
+        let length = before.row(c).amax();
+        if length > 0.0 {
+            before.row_mut(c).unscale_mut(length);
+            after.row_mut(c).unscale_mut(length);
+        }
+    }
+    for j in 0..before.ncols() {
+        let size = before.column(j).amax().max(after.column(j).amax());
+        if size > 0.0 {
+            before.column_mut(j).unscale_mut(size);
+            after.column_mut(j).unscale_mut(size);
+        }
+    }
+    let mut lengths = before.clone();
+    normalise(&mut lengths);
+    let (decomposed, pivots) = pivoted(&lengths);
+    let mut order = DVector::from_fn(before.nrows(), |c, _| c);
+    decomposed.p().permute_rows(&mut order);
+    let count = pivots.iter().filter(|x| **x > SINGULAR).count();
+    let [before, after] = [before, after].map(|rows| rows.select_rows(order.iter().take(count)));
+    let products = before * after.transpose();
+    (&products + products.transpose()).cholesky().is_none()
+}
+
 /// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps
 /// beside those before it.
 pub(crate) fn decompose(

@@ -9,13 +9,14 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search as Assembly, State, assembled, held};
-use crate::displacements::{constraint_matrix, mass_matrix, null_space_holding, units};
+use crate::displacements::{constraint_matrix, mass_matrix, null_space_holding, reversed, units};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{is_symmetric, linear_motion};
+use crate::modes::{is_symmetric, linear_motion, steady};
 use crate::naming::undirected;
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
 
@@ -61,12 +62,18 @@ const LEFT: f64 = 0.1;
 const ROUNDINGS: f64 = 16.0;
 /// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
 const MOMENT: f64 = 1e-6;
-/// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0.
+/// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0; and a singular
+/// position that is met on so short a way is one that the search comes to, and not beside.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
 /// it was asked to be: else it may have come to another branch.
 const BENT: f64 = 0.5;
 const LONGER: f64 = 2.0;
+/// A step longer than this part of the coordinates may have come over what stands in its way; it is looked at after these parts.
+const SHORT: f64 = 0.05;
+const LOOKS: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+/// What constraints allow turns by at most this angle, rad, between two looks.
+const TURN: f64 = 0.5;
 /// A stiffness below this part of the largest one may be none, where this part of what the largest one gives is to be gained along it.
 const WEAK: f64 = 1e-2;
 const GAINED: f64 = 0.1;
@@ -141,6 +148,8 @@ struct Place {
     state: State,
     /// Orthonormal displacements that constraints and held coordinates allow, in units of the coordinates.
     basis: DMatrix<f64>,
+    /// The rows of holonomic constraints.
+    rows: DMatrix<f64>,
     mass: DMatrix<f64>,
     units: DVector<f64>,
     /// How large coordinates are.
@@ -183,9 +192,23 @@ impl Place {
         }
     }
 
+    /// The guess of a state `share` of `change` away.
+    fn aside(&self, change: &DVector<f64>, share: f64) -> State {
+        let mut state = self.state.clone();
+        let pairs = state.q.iter_mut().zip(change.iter());
+        pairs.for_each(|(q, d)| *q += share * d);
+        state
+    }
+
     /// `step` as a change of the coordinates.
     fn displacement(&self, step: &DVector<f64>) -> DVector<f64> {
         (&self.basis * step).component_mul(&self.units)
+    }
+
+    /// How far `change` goes, as a part of how large coordinates are.
+    fn part(&self, change: &DVector<f64>) -> f64 {
+        let parts = change.iter().zip(&self.extents);
+        parts.fold(0.0, |most: f64, (d, extent)| most.max(d.abs() / extent))
     }
 
     /// The way from one place to the other, in units of the coordinates.
@@ -295,6 +318,10 @@ impl Search {
             // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
             let still = full.amax() <= NOWHERE * self.size && here.force.norm() <= first;
             if here.is_balanced() || still && ways.loose <= BALANCED * here.parts {
+                if let Some(nearer) = self.nearer(&here, &full) {
+                    here = nearer;
+                    continue;
+                }
                 self.is_smooth(&here, &full, &stiffness, (first, *firm))?;
                 let stability = self.stability(&here, &stiffness)?;
                 return Ok(Ok(Equilibrium {
@@ -327,11 +354,7 @@ impl Search {
 
     /// The position on the constraints next to `state`.
     fn place(&mut self, state: State) -> Result<Place, Error> {
-        let positions = Held {
-            positions: self.held.clone(),
-            ..Held::default()
-        };
-        let mut state = assembled(&self.mech, &state, positions)?;
+        let mut state = assembled(&self.mech, &state, self.positions())?;
         if let Some(j) = state.v.iter().position(|v| *v != 0.0) {
             let name = self.mech.spec().coords[j];
             let reason = format!("does not rest: constraints that change with time move `{name}`");
@@ -359,8 +382,7 @@ impl Search {
         let push = inertial.component_mul(&units);
         let parts = solved.ideal_force.iter().zip(units.iter());
         let parts: f64 = parts.map(|(f, unit)| (f * unit).abs()).sum();
-        let rows = constraint_matrix(&self.mech, &state);
-        let basis = null_space_holding(&self.held, rows, &units);
+        let (basis, rows) = self.ways_at(&state, &units);
         self.conservative = self.conservative && self.is_driven_by_potential(&state, &units);
         let energy = self.mech.energy(state.t, &state.q, &state.v);
         Ok(Place {
@@ -368,6 +390,7 @@ impl Search {
             parts: parts + push.abs().sum(),
             potential: self.conservative.then_some(energy.potential),
             basis,
+            rows,
             mass,
             units,
             extents,
@@ -398,7 +421,8 @@ impl Search {
         })
     }
 
-    /// Whether Q and c at this state of rest are those of the potential, as far as its differences tell.
+    /// Whether Q and c at this state of rest are those of the potential, as far as its differences tell: those to both sides of the state,
+    /// or, beside a kink of its slope as at a stop, those to one.
     fn is_driven_by_potential(&self, state: &State, units: &DVector<f64>) -> bool {
         let (mech, State { t, q, v }) = (&self.mech, state);
         if mech.spec().structure.conservative {
@@ -406,58 +430,85 @@ impl Search {
         }
         let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
         terms.dynamics(mech, *t, q, v);
-        let potential = |q: &[f64]| mech.energy(*t, q, v).potential;
+        let here = mech.energy(*t, q, v).potential;
         let (mut off, mut parts) = (0.0_f64, 0.0);
         let mut moved = q.clone();
         for (i, unit) in units.iter().enumerate() {
             let h = SLOPE * self.size * unit;
-            let mut at = |q: f64| {
-                moved[i] = q;
-                potential(&moved)
+            let mut rise = |part: f64| {
+                moved[i] = q[i] + part * h;
+                let there = mech.energy(*t, &moved, v).potential;
+                moved[i] = q[i];
+                (there - here, f64::EPSILON * (there.abs() + here.abs()))
             };
-            let [after, before] = [at(q[i] + h), at(q[i] - h)];
-            moved[i] = q[i];
-            let (slope, force) = (
-                (after - before) / (2.0 * h),
-                terms.force[i] + terms.nonideal[i],
-            );
-            off = off.max(((force + slope) * unit).abs());
+            let force = terms.force[i] + terms.nonideal[i];
+            let (mut slope, mut rounding, mut miss) = (0.0, 0.0, f64::INFINITY);
+            for [one, other] in [[1.0, -1.0], [1.0, 2.0], [-1.0, -2.0]] {
+                let shares = [other / one, -one / other].map(|x| x / (other - one) / h);
+                let (near, far) = (rise(one), rise(other));
+                let tried = shares[0] * near.0 + shares[1] * far.0;
+                if (force + tried).abs() < miss {
+                    (slope, miss) = (tried, (force + tried).abs());
+                    rounding = shares[0].abs() * near.1 + shares[1].abs() * far.1;
+                }
+                if miss <= MATCHED * slope.abs() {
+                    break;
+                }
+            }
+            off = off.max(miss * unit);
             // What rounding makes of the difference, too.
-            let rounding = f64::EPSILON * (after.abs() + before.abs()) / h;
             parts += (force.abs() + slope.abs() + rounding / MATCHED) * unit;
         }
         off <= MATCHED * parts && !self.is_held_by_turning(state, units)
     }
 
     /// Whether forces turn velocities, as those of a frame that turns do: they may hold what is at the top of a potential, whatever else
-    /// damps it. That is so where ∂(Q + c)/∂q̇ is not symmetric; what inertia makes of velocities is the same both ways.
+    /// damps it. That is so where ∂(Q + c)/∂q̇ is not symmetric at rest; what has no derivative there, as friction, resists whatever moves.
     fn is_held_by_turning(&self, state: &State, units: &DVector<f64>) -> bool {
-        let (mech, State { t, q, .. }) = (&self.mech, state);
-        let n = q.len();
-        let mut terms = Evaluated::new(n, mech.spec().m());
+        let (n, sloped) = (state.q.len(), self.mech.sloped());
+        let constant = |x: &f64| Sloped::from_f64(*x);
+        let (t, q) = (constant(&state.t), state.q.iter().map(constant));
+        let q: Vec<Sloped> = q.collect();
+        let mut terms = Evaluated::<Sloped>::new(n, self.mech.spec().m());
         let mut slopes = DMatrix::<f64>::zeros(n, n);
-        let mut v = vec![0.0; n];
-        for j in 0..n {
-            for sign in [1.0, -1.0] {
-                v[j] = sign * units[j];
-                terms.dynamics(mech, *t, q, &v);
+        for first in (0..n).step_by(Slopes::COUNT) {
+            let v = (0..n).map(|j| Sloped::new(0.0, Slopes::unit(j, first)));
+            terms.dynamics(&sloped, t, &q, &v.collect::<Vec<_>>());
+            for j in first..n.min(first + Slopes::COUNT) {
                 for i in 0..n {
-                    slopes[(i, j)] += sign * units[i] * (terms.force[i] + terms.nonideal[i]);
+                    let along = |force: &[Sloped]| force[i].eps.along(j - first);
+                    let slope = along(&terms.force) + along(&terms.nonideal);
+                    slopes[(i, j)] = units[i] * units[j] * slope;
                 }
             }
-            v[j] = 0.0;
         }
-        let turning = (&slopes - slopes.transpose()).amax();
-        turning > MATCHED * slopes.amax()
+        let largest = |matrix: &DMatrix<f64>| {
+            let finite = matrix.iter().filter(|x| x.is_finite());
+            finite.fold(0.0_f64, |most, x| most.max(x.abs()))
+        };
+        largest(&(&slopes - slopes.transpose())) > MATCHED * largest(&slopes)
     }
 
-    /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.
-    fn moved(&mut self, from: &Place, step: &DVector<f64>) -> Result<Place, Error> {
+    /// The place where `step` leads, if forces fade towards it that [`modes`](crate::modes()) would not yet take for those of rest: where a
+    /// stiffness vanishes each step leaves a part of the way.
+    fn nearer(&mut self, here: &Place, step: &DVector<f64>) -> Option<Place> {
+        if !self.held.is_empty() || steady(&self.mech, &here.state).is_ok() {
+            return None;
+        }
+        let there = self.moved(here, step).ok()?;
+        let fades = there.force.norm() < 0.5 * here.force.norm();
+        (fades && self.follows(here, step, &there)).then_some(there)
+    }
+
+    /// `step` as a change of coordinates, of which the longest that is tried is as long as these.
+    fn change(&self, from: &Place, step: &DVector<f64>) -> DVector<f64> {
         let change = from.displacement(step);
-        let shares = change.iter().zip(&from.extents);
-        let most = shares.fold(0.0, |most: f64, (d, extent)| most.max(d.abs() / extent));
-        let share = if most > 1.0 { most.recip() } else { 1.0 };
-        self.displaced(from, &change, share)
+        change.unscale(from.part(&change).max(1.0))
+    }
+
+    /// The place where `step` leads.
+    fn moved(&mut self, from: &Place, step: &DVector<f64>) -> Result<Place, Error> {
+        self.displaced(from, &self.change(from, step), 1.0)
     }
 
     /// The place where `share` of `change` leads.
@@ -467,10 +518,61 @@ impl Search {
         change: &DVector<f64>,
         share: f64,
     ) -> Result<Place, Error> {
-        let mut state = from.state.clone();
-        let pairs = state.q.iter_mut().zip(change.iter());
-        pairs.for_each(|(q, d)| *q += share * d);
-        self.place(state)
+        self.place(from.aside(change, share))
+    }
+
+    /// Whether nothing stands between one place and the other on the way by `step`, as far as places between tell: no singular position,
+    /// where a combination of constraints is reversed, or beside which what they allow turns at once; and no barrier, behind which a
+    /// potential that has risen falls once more.
+    fn is_clear(&self, from: &Place, step: &DVector<f64>, to: &Place) -> bool {
+        let change = self.change(from, step);
+        let looks = if from.part(&change) > SHORT {
+            &LOOKS[..]
+        } else {
+            &[]
+        };
+        let between = looks.iter().map(|share| {
+            let guess = from.aside(&change, *share);
+            let state = assembled(&self.mech, &guess, self.positions()).ok()?;
+            let energy = self.mech.energy(state.t, &state.q, &state.v);
+            let (basis, rows) = self.ways_at(&state, &from.units);
+            Some((basis, rows, energy.potential))
+        });
+        let falls = from.potential.is_some() && to.potential.is_some();
+        let ends = [from, to].map(|place| {
+            let potential = place.potential.unwrap_or_default();
+            (place.basis.clone(), place.rows.clone(), potential)
+        });
+        let [mut before, last] = ends;
+        let mut risen = false;
+        between.chain([Some(last)]).all(|there| {
+            let Some(there) = there else {
+                return false;
+            };
+            let ([basis, next], [rows, others]) = ([&before.0, &there.0], [&before.1, &there.1]);
+            let turned = basis.ncols() == next.ncols() && turn(basis, next) > TURN;
+            let clear = !turned && !reversed(rows.clone(), others.clone());
+            let rounding = BALANCED * (there.2.abs() + before.2.abs());
+            let barred = falls && risen && there.2 < before.2 - rounding;
+            risen |= there.2 > before.2 + rounding;
+            before = there;
+            clear && !barred
+        })
+    }
+
+    /// Displacements that constraints and held coordinates allow at `state`, and the rows of holonomic constraints.
+    fn ways_at(&self, state: &State, units: &DVector<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let rows = constraint_matrix(&self.mech, state);
+        let holonomic = rows.rows(0, self.mech.spec().holonomic).into_owned();
+        (null_space_holding(&self.held, rows, units), holonomic)
+    }
+
+    /// What keeps the coordinates that are held.
+    fn positions(&self) -> Held {
+        Held {
+            positions: self.held.clone(),
+            ..Held::default()
+        }
     }
 
     /// Whether the constraints lead from one place to the other by `step`.
@@ -478,7 +580,9 @@ impl Search {
         let chord = to.chord_from(from);
         let off = (&chord - &from.basis * from.basis.tr_mul(&chord)).norm();
         let rounding = NOWHERE * self.size;
-        off <= BENT * chord.norm() + rounding && chord.norm() <= LONGER * step.norm() + rounding
+        off <= BENT * chord.norm() + rounding
+            && chord.norm() <= LONGER * step.norm() + rounding
+            && (chord.norm() <= NEAR * self.size || self.is_clear(from, step, to))
     }
 
     /// K at `here`: where nothing is held by exact derivatives of the accelerations, which are those of r where these vanish; else by
@@ -612,6 +716,13 @@ fn is_unexplained(here: &Place, stiffness: &DMatrix<f64>, first: f64) -> Option<
     let left = (force.abs() - explained).map(|left| left.max(0.0));
     let limit = LEFT * first.max(here.parts);
     Some(left.norm() > limit)
+}
+
+/// The largest angle by which directions of one of two orthonormal bases of as many are off those of the other one.
+fn turn(basis: &DMatrix<f64>, other: &DMatrix<f64>) -> f64 {
+    let off = other - basis * basis.tr_mul(other);
+    let off = spectrum::singular(off, false, false).map(|svd| svd.singular_values.amax());
+    off.map_or(f64::INFINITY, |sine| sine.min(1.0).asin())
 }
 
 /// The symmetric part of `matrix`.

@@ -16,6 +16,7 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
+use crate::noise::Noise;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
@@ -26,6 +27,8 @@ use crate::spectrum::eigenvalues;
 const REST: f64 = 1e-9;
 /// Rest positions are found to this share of the largest coordinate: of a mechanism that is far from the origin angles to no more.
 const ROUNDED: f64 = 1e-12;
+/// Accelerations below so many times what rounding is likely to leave of their forces are rounding.
+const ROUNDINGS: f64 = 4.0;
 /// What rounding may have changed in the linearised motion, as a part of it.
 const ROUNDING: f64 = 1e-14;
 
@@ -70,16 +73,17 @@ impl Mode {
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
 /// - What [`Linearisation::at`] reports.
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
-    linear_motion(&mechanism.into(), state).map(|(modes, _)| modes)
+    let mech = mechanism.into();
+    steady(&mech, state)?;
+    linear_motion(&mech, state).map(|(modes, _)| modes)
 }
 
-/// The [`modes`](modes()), and whether what none of them tells grows: deviations at an eigenvalue of 0 faster than in proportion to time,
-/// a vibration that lasts in proportion to it.
+/// The [`modes`](modes()) about `state`, which is at rest or in a steady motion, or taken for that, and whether what none of them tells
+/// grows: deviations at an eigenvalue of 0 faster than in proportion to time, a vibration that lasts in proportion to it.
 pub(crate) fn linear_motion(mech: &Prepared, state: &State) -> Result<(Vec<Mode>, bool), Error> {
     let found = Linearisation::at(mech, state)?;
     let units = units(mech, state);
     let (flow, pace) = flow(&found, &units);
-    steady(mech, &found, state, &units, (&flow, pace))?;
     let tangent = tangent(mech, state, &units, pace);
     if tangent.ncols() == 0 {
         return Ok((Vec::new(), false));
@@ -361,14 +365,11 @@ fn flow(found: &Linearisation, units: &DVector<f64>) -> (DMatrix<f64>, f64) {
     (flow, pace)
 }
 
-/// Whether no coordinate accelerates, beside what accelerations here are made up of: `flow`, by times of which `pace` are a second.
-fn steady(
-    mech: &Prepared,
-    found: &Linearisation,
-    state: &State,
-    units: &DVector<f64>,
-    (flow, pace): (&DMatrix<f64>, f64),
-) -> Result<(), Error> {
+/// Refuses a state at which a coordinate accelerates, beside what accelerations there are made up of.
+pub(crate) fn steady(mech: &Prepared, state: &State) -> Result<(), Error> {
+    let found = Linearisation::at(mech, state)?;
+    let units = units(mech, state);
+    let (flow, pace) = flow(&found, &units);
     let (n, State { t, q, v }) = (mech.spec().n(), state);
     // A way that takes the mechanism into another shape: a radian, or as far as that takes what turns; the unit of length where no
     // constraint tells any.
@@ -382,10 +383,16 @@ fn steady(
         (REST * own.abs()).max(least * measure.scale[j]) / units[j]
     });
     let parts = flow.rows(n, n).abs() * off * (pace * pace);
+    // Where a stiffness vanishes as parts of it cancel, these still round the forces.
+    let mut rounding = vec![0.0; n];
+    let mut noise = Noise::new(mech);
+    noise.go(mech, *t, [q, v], |_| [0.0; 2]);
+    noise.force(&mut rounding);
+    let rounding = DVector::from_vec(rounding).component_mul(&units) * (ROUNDINGS * f64::EPSILON);
     // Forces of constraints balance others.
     let solved = Solver::new(mech, SolverOptions::default()).solve(*t, q, v)?;
-    let ideal = DVector::from_vec(solved.ideal_force).component_mul(units);
-    let left = parts.amax().max(REST * ideal.amax());
+    let ideal = DVector::from_vec(solved.ideal_force).component_mul(&units);
+    let left = parts.amax().max(REST * ideal.amax()).max(rounding.amax());
     let accelerations = found.acceleration.iter().zip(units.iter());
     for (i, (a, unit)) in accelerations.enumerate() {
         if (a / unit).abs() > left {

@@ -94,6 +94,15 @@ impl Noise {
         }
     }
 
+    /// The rounding of Q + c.
+    pub(crate) fn force(&mut self, out: &mut [f64]) {
+        self.terms
+            .dynamics(&self.mechanism, self.t, &self.q, &self.v);
+        bounds(&self.terms.force, out);
+        let pairs = out.iter_mut().zip(&self.terms.nonideal);
+        pairs.for_each(|(out, c)| *out += c.bound());
+    }
+
     /// The rounding of A q̈ − b.
     pub(crate) fn motion(&mut self, acceleration: &[f64], out: &mut [f64]) {
         self.terms
