@@ -3,8 +3,10 @@
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
 //! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have
 //! a potential, but for those that vanish at rest as of dampers, the search goes downhill: curvatures count by their magnitude, so it ends
-//! where the potential is least nearby, unless it starts where nothing moves it. Else r alone tells. Steps are so short that the
-//! constraints are followed: the mechanism rests in the branch in which it starts.
+//! where the potential is least nearby, unless it starts where nothing moves it. Else r alone tells.
+//!
+//! Long steps are looked at on their way, too. None goes where constraints do not lead, as over a singular position or a near miss of one,
+//! so the mechanism rests in the branch in which it starts; and none over a barrier that shows between looks.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -81,10 +83,13 @@ const GAINED: f64 = 0.1;
 const FLAT: f64 = 1e-13;
 const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 
-/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time, in the branch of these in which it is.
-/// That is so where all forces have a potential that is declared, but for those that vanish at rest; where others act, as a weight under
-/// `force`, it is one nearby, stable or not. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what
-/// becomes of displacements is then told by the stiffness alone.
+/// A rest position of `mechanism` downhill of `guess`, or where that is, on the constraints at its time, in the branch of these in which it
+/// is. Downhill the potential falls that all forces have but those that vanish at rest; where others act, as a weight under `force`, the
+/// position is one nearby, stable or not. It is a search in steps that goes down, not a motion: where ways from the guess lead to several
+/// bottoms it may end in another one than a damped motion does, and it steps over a bottom or a barrier that is narrow beside the
+/// coordinates, by which the longest steps are measured. A branch that comes as near to another one as a millionth of the coordinates counts
+/// as one that meets it. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of displacements is
+/// then told by the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
