@@ -64,13 +64,14 @@ const LEFT: f64 = 0.1;
 const ROUNDINGS: f64 = 16.0;
 /// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
 const MOMENT: f64 = 1e-6;
-/// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0; and a singular
-/// position that is met on so short a way is one that the search comes to, and not beside.
+/// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0.
 const NEAR: f64 = 1e-6;
 /// A step leaves the displacements that the constraints allow by at most this part of its length, and is at most so many times as long as
 /// it was asked to be: else it may have come to another branch.
 const BENT: f64 = 0.5;
 const LONGER: f64 = 2.0;
+/// On a way shorter than this part of the coordinates a singular position is gone over, as where branches cross.
+const MET: f64 = 1e-4;
 /// A step longer than this part of the coordinates may have come over what stands in its way; it is looked at after these parts.
 const SHORT: f64 = 0.05;
 const LOOKS: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
@@ -87,9 +88,9 @@ const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 /// is. Downhill the potential falls that all forces have but those that vanish at rest; where others act, as a weight under `force`, the
 /// position is one nearby, stable or not. It is a search in steps that goes down, not a motion: where ways from the guess lead to several
 /// bottoms it may end in another one than a damped motion does, and it steps over a bottom or a barrier that is narrow beside the
-/// coordinates, by which the longest steps are measured. A branch that comes as near to another one as a millionth of the coordinates counts
-/// as one that meets it. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of displacements is
-/// then told by the stiffness alone.
+/// coordinates, by which the longest steps are measured. A branch that comes as near to another one as 1e-4 of the coordinates
+/// counts as one that meets it. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of
+/// displacements is then told by the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
@@ -543,24 +544,22 @@ impl Search {
             let (basis, rows) = self.ways_at(&state, &from.units);
             Some((basis, rows, energy.potential))
         });
-        let falls = from.potential.is_some() && to.potential.is_some();
-        let ends = [from, to].map(|place| {
+        let [first, last] = [from, to].map(|place| {
             let potential = place.potential.unwrap_or_default();
             (place.basis.clone(), place.rows.clone(), potential)
         });
-        let [mut before, last] = ends;
-        let mut risen = false;
+        let falls = from.potential.is_some() && to.potential.is_some();
+        let (mut before, mut risen) = (first, false);
         between.chain([Some(last)]).all(|there| {
-            let Some(there) = there else {
+            let Some((basis, rows, potential)) = there else {
                 return false;
             };
-            let ([basis, next], [rows, others]) = ([&before.0, &there.0], [&before.1, &there.1]);
-            let turned = basis.ncols() == next.ncols() && turn(basis, next) > TURN;
-            let clear = !turned && !reversed(rows.clone(), others.clone());
-            let rounding = BALANCED * (there.2.abs() + before.2.abs());
-            let barred = falls && risen && there.2 < before.2 - rounding;
-            risen |= there.2 > before.2 + rounding;
-            before = there;
+            let turned = basis.ncols() == before.0.ncols() && turn(&before.0, &basis) > TURN;
+            let clear = !turned && !reversed(before.1.clone(), rows.clone());
+            let rounding = BALANCED * (potential.abs() + before.2.abs());
+            let barred = falls && risen && potential < before.2 - rounding;
+            risen |= potential > before.2 + rounding;
+            before = (basis, rows, potential);
             clear && !barred
         })
     }
@@ -587,7 +586,7 @@ impl Search {
         let rounding = NOWHERE * self.size;
         off <= BENT * chord.norm() + rounding
             && chord.norm() <= LONGER * step.norm() + rounding
-            && (chord.norm() <= NEAR * self.size || self.is_clear(from, step, to))
+            && (chord.norm() <= MET * self.size || self.is_clear(from, step, to))
     }
 
     /// K at `here`: where nothing is held by exact derivatives of the accelerations, which are those of r where these vanish; else by

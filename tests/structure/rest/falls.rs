@@ -26,7 +26,8 @@ mechanisms! {
         coords { a, b }
         mass { a: m * sq(s), b: 0.3 * m * sq(s) }
         potential { -m * g * s * (cos(a) + 0.3 * cos(b)), 0.5 * k * m * sq(s / tau) * sq(a - b + 0.3) }
-        force { a: m * sq(s) / tau * (-c * (1.7 * dot(a) - dot(b) / 3) + w * dot(b)), b: m * sq(s) / tau * (c * (dot(a) / 3 - dot(b)) - w * dot(a)) }
+        let unit = m * sq(s) / tau;
+        force { a: unit * (-c * (1.7 * dot(a) - dot(b) / 3) + w * dot(b)), b: unit * (c * (dot(a) / 3 - dot(b)) - w * dot(a)) }
     }
     Gear {
         params { k = 2e4, tyre = 2e5, c = 1e3, m = 500.0, wheel = 30.0, g = 9.81 }
@@ -103,6 +104,26 @@ fn no_step_goes_over_a_near_miss_of_a_singular_position() {
                 fold(&start) * fold(&found.state) > 0.0,
                 "{gap} {turn} {side}"
             );
+        }
+    }
+}
+
+/// Parallelograms, whose branches cross where all bars are in line: a search goes on there, and ends at a bottom.
+#[test]
+fn a_search_goes_on_where_branches_cross() {
+    let linkage = FourBar {
+        l: [1.0, 2.0, 1.0],
+        span: 2.0,
+        k: 0.0,
+        ..FourBar::default()
+    };
+    for turn in 0..60 {
+        let crank = TAU * (f64::from(turn) + 0.3) / 60.0;
+        for [coupler, rocker] in [[0.0, crank], [-0.7, -2.0], [0.7, 2.0]] {
+            let at = [("crank", crank), ("coupler", coupler), ("rocker", rocker)];
+            let start = linkage.start("open", &at.into()).expect("a position");
+            let found = equilibrium(&linkage, &start, &[]).expect("a rest position");
+            assert_eq!(found.stability, Stability::Stable, "{crank} {coupler}");
         }
     }
 }
