@@ -1,5 +1,5 @@
-//! Rows whose terms are as small as coordinates are near zero, beside rows with lengths of 1 that imply them: b = 0.7 a and c = 0.9 a in all,
-//! so that a falls as one mass.
+//! Rows whose terms are as small as coordinates are near zero, beside rows with lengths of 1 that imply them: b = 0.7 a and c = 0.9 a in
+//! all, so that a falls as one mass.
 
 use ukcore::{Mechanism, Method, Simulation, State};
 
