@@ -1,5 +1,6 @@
 //! Swept drives against closed forms: positions, velocities, accelerations, limits.
 
+mod held;
 mod refusals;
 
 use std::f64::consts::{PI, TAU};

@@ -32,6 +32,8 @@ pub struct Kinematics {
     pub limits: Vec<Limit>,
     /// Whether velocities are those in time, since that is a drive.
     timed: bool,
+    /// Whether constraints alone make the motion, since time is the only drive and nothing is held beside them.
+    constrained: bool,
 }
 
 /// A limit of motion: a dead centre of the drive, at which it stands still while the mechanism moves.
@@ -98,6 +100,7 @@ pub fn kinematics(
     let (postures, limits) = sweep.postures(intervals)?;
     Ok(Kinematics {
         timed: sweep.timed().is_some(),
+        constrained: sweep.drives.iter().all(Drive::is_time) && sweep.held.is_empty(),
         postures,
         limits,
         mechanism: mech,
@@ -201,14 +204,14 @@ impl Kinematics {
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name; [`Error::InvalidSetting`] for one that depends on reactions where coordinates are
-    /// swept, and not `t`: forces that are declared do not make that motion.
+    /// swept or held, and not `t` alone: forces that are declared do not make that motion.
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
         let spec = self.mechanism.spec();
         let index = spec.output_index(name)?;
         let OutputSpec { name, loaded, .. } = spec.outputs[index];
-        if loaded && !self.timed {
-            let reason = "depends on reactions, which are those of the motion that forces make, not of a swept one; prescribe the drive by \
-                          a constraint, and sweep `t`";
+        if loaded && !self.constrained {
+            let reason = "depends on reactions, which are those of the motion that forces make, not of one in which coordinates are swept or \
+                          held; prescribe these by constraints, and sweep `t`";
             return Err(Error::invalid(name, reason));
         }
         let mut row = vec![0.0; spec.outputs.len()];

@@ -112,6 +112,10 @@ impl Drive {
         Ok(all)
     }
 
+    pub(super) fn is_time(&self) -> bool {
+        self.coordinate.is_none()
+    }
+
     fn gain(&self) -> f64 {
         self.range.end - self.range.start
     }
@@ -201,7 +205,7 @@ impl<'a> Sweep<'a> {
     /// The time, if it is a drive and moves.
     pub(super) fn timed(&self) -> Option<&Drive> {
         let mut drives = self.drives.iter();
-        drives.find(|drive| drive.coordinate.is_none() && drive.gain() != 0.0)
+        drives.find(|drive| drive.is_time() && drive.gain() != 0.0)
     }
 
     /// Which part of the sweep is done at the start, if all drives agree on one.
