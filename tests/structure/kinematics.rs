@@ -1,6 +1,7 @@
 //! Swept drives against closed forms: positions, velocities, accelerations, limits.
 
 mod held;
+mod near;
 mod refusals;
 
 use std::f64::consts::{PI, TAU};

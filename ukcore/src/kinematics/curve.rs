@@ -3,6 +3,11 @@
 //! It is followed by its arc length, so that it may turn back in s, as at a dead centre of the drive: a step along the tangent, then Gauss
 //! and Newton's method, whose steps of least length are at right angles to the curve. Of rows that imply each other as many are taken as
 //! were independent at the start, those that keep most beside the others.
+//!
+//! Where branches cross a combination of rows vanishes, and is reversed behind that place. Where they all but cross, each turns off sharply,
+//! and a step that went straight on would end on another one, with the same tangent; but there the combination is reversed, too. So a step
+//! over which one is reversed is halved, until the curve has been followed round the bend. If no bend shows before steps are so short that
+//! rounding hides it, that is a crossing, and the curve goes straight on.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,6 +24,10 @@ const STALLED: f64 = 1e-10;
 /// A step along the curve turns its tangent by less than the first of these angles, rad; the second is aimed at.
 const TURN: f64 = 0.3;
 const WANTED: f64 = 0.15;
+/// A step after which rows have turned by more than this angle is not followed by a longer one, lest they turn all the way within it.
+const ROWS: f64 = 0.5;
+/// So many times as far as rounding hides where branches cross goes a step over that place.
+const OVER: f64 = 8.0;
 /// The first step, as a part of the sweep; and the least one, of what the curve is measured by, and of the coordinates, which are known to
 /// rounding.
 const FIRST: f64 = 1e-3;
@@ -74,9 +83,21 @@ impl Place {
 pub(super) struct Path {
     /// Places along it, so near to each other that a cubic is the curve between them.
     pub(super) places: Vec<Place>,
+    /// The numbers of places behind which the curve goes over a crossing.
+    pub(super) crossings: Vec<usize>,
     /// A radius of its curvature that is neither the least nor the largest.
     pub(super) radius: f64,
     pub(super) end: End,
+}
+
+/// A step along the curve.
+#[derive(Debug)]
+pub(super) struct Step {
+    pub(super) place: Place,
+    /// The rows there.
+    rows: Rows,
+    /// By which angle the tangent has turned.
+    turn: f64,
 }
 
 /// Why a path ends.
@@ -99,6 +120,7 @@ impl Path {
 }
 
 /// The rows of the curve's equations at a place, in units, taken apart: Kᵀ P = Q R.
+#[derive(Debug)]
 pub(super) struct Rows {
     pub(super) matrix: DMatrix<f64>,
     pub(super) lengths: DVector<f64>,
@@ -168,6 +190,24 @@ impl Rows {
         shares
     }
 
+    /// Whether a combination of the independent rows is reversed, or as good as at right angles to what it was, `there`: whether the
+    /// symmetric part of what these rows are there, in combinations that are orthonormal here, is not positive definite.
+    fn reversed(&self, there: &Rows) -> bool {
+        let rows = there.matrix.select_rows(&self.order[..self.rank]);
+        let mut rows = rows * self.turned.rows(0, self.rank).transpose();
+        self.r.tr_solve_upper_triangular_mut(&mut rows);
+        (&rows + rows.transpose()).cholesky().is_none()
+    }
+
+    /// By which angle at most one of the rows has turned `there`.
+    fn turned(&self, there: &Rows) -> f64 {
+        let pairs = self.matrix.row_iter().zip(there.matrix.row_iter());
+        let angles =
+            pairs.map(|(a, b)| (a.dot(&b) / (a.norm() * b.norm())).clamp(-1.0, 1.0).acos());
+        // Not a number where a row vanishes.
+        angles.fold(0.0, f64::max)
+    }
+
     /// An orthonormal basis of the directions that all rows leave, in rows.
     pub(super) fn free(&self) -> DMatrix<f64> {
         let n = self.matrix.ncols();
@@ -221,10 +261,11 @@ impl Curve<'_> {
             let rows = self.rows(&place.x, n);
             self.lengths = rows.lengths.iter().copied().collect();
         }
-        let margins = path.places.iter().map(|p| self.rows(&p.x, n).margin);
-        let mut margins: Vec<f64> = margins.collect();
-        margins.sort_by(f64::total_cmp);
-        self.margin = margins[margins.len() / 2];
+        let margins = path.places.windows(2).map(|pair| {
+            let length = (&pair[1].x - &pair[0].x).component_div(&self.units).norm();
+            (self.rows(&pair[1].x, n).margin, length)
+        });
+        self.margin = usual(margins.collect()).unwrap_or(self.margin);
     }
 
     /// How far `x` is off, row by row.
@@ -248,6 +289,15 @@ impl Curve<'_> {
     /// How long the sweep is, in units.
     fn length(&self) -> f64 {
         1.0 / self.units[self.units.len() - 1]
+    }
+
+    /// How far coordinates are to go for rows to turn by about a radian, in units.
+    fn radian(&self) -> f64 {
+        if self.extent > 0.0 {
+            self.extent
+        } else {
+            self.length()
+        }
     }
 
     /// How long the sweep and the mechanism are, in units.
@@ -289,11 +339,12 @@ impl Curve<'_> {
         sum
     }
 
-    /// The place on the curve that is reached from `x`, where the tangent is nearest to `way`.
-    pub(super) fn onto(&self, x: DVector<f64>, way: &DVector<f64>) -> Option<Place> {
+    /// The place on the curve that is reached from `x`, where the tangent is nearest to `way`, and the rows there.
+    fn onto(&self, x: DVector<f64>, way: &DVector<f64>) -> Option<(Place, Rows)> {
         let x = self.solved(x, false)?;
-        let way = self.rows(&x, self.mech.spec().n()).along(way)?;
-        Some(Place { x, way })
+        let rows = self.rows(&x, self.mech.spec().n());
+        let way = rows.along(way)?;
+        Some((Place { x, way }, rows))
     }
 
     /// What Newton's method comes to from `x`, with steps that leave s as it is where it is `kept`.
@@ -319,15 +370,15 @@ impl Curve<'_> {
         None
     }
 
-    /// The place at the distance `step` from `from`, if the curve is smooth in between, and by which angle the tangent has turned.
-    pub(super) fn beyond(&self, from: &Place, step: f64) -> Option<(Place, f64)> {
-        let guess = &from.x + (step * &from.way).component_mul(&self.units);
-        let place = self.onto(guess.clone(), &from.way)?;
+    /// The step of this length from `from`, if the curve is smooth in between.
+    fn beyond(&self, from: &Place, length: f64) -> Option<Step> {
+        let guess = &from.x + (length * &from.way).component_mul(&self.units);
+        let (place, rows) = self.onto(guess.clone(), &from.way)?;
         let turn = from.way.dot(&place.way).clamp(-1.0, 1.0).acos();
         let off = (&place.x - guess).component_div(&self.units).norm();
         // Of an arc it is half the turn times its length.
-        let smooth = turn < TURN && off <= TURN * step.abs();
-        smooth.then_some((place, turn))
+        let smooth = turn < TURN && off <= TURN * length;
+        smooth.then_some(Step { place, rows, turn })
     }
 
     /// The place of a cubic from `a` to `b` at the part `part` of the way, and how fast s changes there.
@@ -348,13 +399,18 @@ impl Curve<'_> {
     /// Follows the curve from `from` until s has come to `until`, to where s turns back before, or to where there is no smooth way on.
     pub(super) fn follow(&self, from: Place, until: f64) -> Path {
         let (per, sense) = (self.units[from.x.len() - 1], from.speed().signum());
-        let size = self.scale();
-        let least = (LEAST * size).max(ROUGH * self.size(&from.x));
+        let (size, rounding) = (self.scale(), ROUGH * self.size(&from.x));
+        let least = (LEAST * size).max(rounding);
+        // Next to a crossing rounding moves the curve by its root.
+        let hidden = (rounding * self.radian()).sqrt().max(2.0 * least);
         // The length along the curve in which s changes by `part`.
         let lasts = |place: &Place, part: f64| part / (per * place.speed().abs());
-        let mut step = lasts(&from, FIRST).min(size);
+        let mut length = lasts(&from, FIRST).min(size);
+        let mut rows = self.rows(&from.x, from.x.len() - 1);
         let mut places = vec![from];
-        let mut radii = Vec::new();
+        let (mut radii, mut crossings) = (Vec::new(), Vec::new());
+        // How far ahead at most a combination of rows is reversed, and whether the next step goes over that.
+        let (mut within, mut over) = (0.0, false);
         let end = loop {
             let here = &places[places.len() - 1];
             let rest = (until - here.s()) * sense;
@@ -364,27 +420,51 @@ impl Curve<'_> {
             if places.len() > STEPS {
                 break End::Long;
             }
-            if step < least {
+            if within > 0.0 && !over && length < hidden {
+                (over, length) = (true, OVER * hidden);
+            }
+            if length < least || over && length > TURN * self.radian() {
                 break End::Stuck;
             }
-            step = step.min(lasts(here, (1.1 * rest).max(FIRST)));
-            let next = self.beyond(here, step).filter(|(next, _)| {
-                let forward = next.speed() * sense > 0.0;
+            length = length.min(lasts(here, (1.1 * rest).max(FIRST)));
+            let step = self.beyond(here, length).filter(|step| {
+                let forward = step.place.speed() * sense > 0.0;
                 // No turn there and back again in between.
-                !forward || self.between(here, next, 0.5).1 * sense > 0.0
+                !forward || self.between(here, &step.place, 0.5).1 * sense > 0.0
             });
-            let Some((mut next, turn)) = next else {
-                step *= 0.5;
+            let reversed = !over && step.as_ref().is_some_and(|step| rows.reversed(&step.rows));
+            let Some(step) = step.filter(|_| !reversed) else {
+                within = if reversed { length } else { within };
+                length *= if over { 2.0 } else { 0.5 };
                 continue;
             };
-            radii.push(step / turn.max(step / size));
-            step *= (WANTED / turn.max(1e-3)).clamp(0.5, 2.0);
+            let Step {
+                place: mut next,
+                rows: there,
+                turn,
+            } = step;
+            radii.push((length / turn.max(length / size), length));
+            let growth = (WANTED / turn)
+                .min(ROWS / rows.turned(&there))
+                .clamp(0.5, 2.0);
+            if over {
+                crossings.push(places.len() - 1);
+                (within, over) = (0.0, false);
+            }
+            within -= length;
+            // What is known to be near is not overtaken.
+            length *= if within > 0.0 {
+                growth.min(1.0)
+            } else {
+                growth
+            };
             let back = next.speed() * sense <= 0.0;
             if back {
                 next = self.turning(here, &next, sense);
             }
             let left = (until - next.s()) * sense;
             places.push(next);
+            rows = there;
             if back {
                 break match left > -AT {
                     true => End::Turned,
@@ -392,20 +472,33 @@ impl Curve<'_> {
                 };
             }
         };
-        radii.sort_by(f64::total_cmp);
-        let radius = radii.get(radii.len() / 2).copied().unwrap_or(size);
         Path {
             places,
-            radius,
+            crossings,
+            radius: usual(radii).unwrap_or(size),
             end,
         }
     }
 
     /// The place between `a` and `b` where s turns back.
     fn turning(&self, a: &Place, b: &Place, sense: f64) -> Place {
-        let at = |part: f64| self.onto(self.between(a, b, part).0, &a.way);
+        let at = |part: f64| {
+            let found = self.onto(self.between(a, b, part).0, &a.way);
+            found.map(|(place, _)| place)
+        };
         let back = |part: f64| Ok::<f64, ()>(at(part).map_or(f64::NAN, |p| -p.speed() * sense));
         let part = locate(back, 0.0, 1.0).unwrap_or(1.0);
         at(part).unwrap_or_else(|| b.clone())
     }
+}
+
+/// The value that is exceeded on half of the length of a path, by the values on parts of it, with their lengths.
+fn usual(mut parts: Vec<(f64, f64)>) -> Option<f64> {
+    parts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut left = 0.5 * parts.iter().map(|(_, length)| length).sum::<f64>();
+    let middle = parts.iter().find(|(_, length)| {
+        left -= length;
+        left <= 0.0
+    });
+    middle.map(|(value, _)| *value)
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::curve::{Curve, Path, Place, Rows};
+use super::curve::{Curve, End, Path, Place, Rows};
 use super::sweep::{STILL, stuck};
 use crate::assemble::State;
 use crate::error::Error;
@@ -41,15 +41,16 @@ impl Curve<'_> {
             let (q, rows) = self.position(guess, s)?;
             return Ok(self.moved(q, s, &a.way, &rows));
         }
-        let reach = |from: &Place, step: f64| {
-            let there = self.beyond(from, step);
-            there.map_or_else(|| from.clone(), |(place, _)| place)
-        };
         let (mut aside, mut before) = (ASIDE * path.radius, None);
+        let step = |aside: f64| aside * a.speed() * self.units[guess.len() - 1];
+        let reach = |aside: f64| SHARES.len() as f64 * step(aside);
+        let crosses = |k: &usize| (path.places[*k].s() - s).abs() <= reach(aside).abs();
+        let crosses = path.crossings.iter().any(crosses);
         for _ in 0..HALVINGS {
-            let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
-            let step = aside * a.speed() * self.units[guess.len() - 1];
-            let mean = self.mean([&behind, &ahead], s, step)?;
+            let mean = match self.around([a, b], s, reach(aside)) {
+                Some(places) => self.mean(&places, s, step(aside))?,
+                None => None,
+            };
             if let (Some(now), Some(then)) = (&mean, &before)
                 && self.agree(now, then)
             {
@@ -58,8 +59,28 @@ impl Curve<'_> {
             before = mean;
             aside *= 0.5;
         }
-        let q = guess.as_slice()[..guess.len() - 1].to_vec();
-        Err(stuck(self, State::at_rest(self.time_at(s), q)))
+        if crosses {
+            let q = guess.as_slice()[..guess.len() - 1].to_vec();
+            return Err(stuck(self, State::at_rest(self.time_at(s), q)));
+        }
+        // The curve turns sharply, where branches all but cross.
+        let (q, rows) = self.position(guess, s)?;
+        Ok(self.moved(q, s, &a.way, &rows))
+    }
+
+    /// Places along the curve as far as `reach` on both sides of `s`, which is between `a` and `b`; `None` if it does not go on so far.
+    fn around(&self, [a, b]: [&Place; 2], s: f64, reach: f64) -> Option<Vec<Place>> {
+        let follow = |from: &Place, until: f64| {
+            let path = self.follow(from.clone(), until);
+            (path.end == End::Arrived).then_some(path.places)
+        };
+        let back = |mut place: Place| {
+            place.way.neg_mut();
+            place
+        };
+        let behind = follow(&back(a.clone()), s - reach)?;
+        let ahead = follow(b, s + reach)?;
+        Some(behind.into_iter().rev().map(back).chain(ahead).collect())
     }
 
     /// Whether two means are the same but for small errors, of which that of the nearer one is far smaller.
@@ -76,9 +97,12 @@ impl Curve<'_> {
                 <= SAME * (turn + most(&a.acceleration, &zero))
     }
 
-    /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch.
-    fn mean(&self, [a, b]: [&Place; 2], s: f64, step: f64) -> Result<Option<Posture>, Error> {
+    /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch, with these `places` along it.
+    fn mean(&self, places: &[Place], s: f64, step: f64) -> Result<Option<Posture>, Error> {
         let n = self.mech.spec().n();
+        let [first, .., last] = places else {
+            return Ok(None);
+        };
         let mut mean = Posture {
             state: State::at_rest(self.time_at(s), vec![0.0; n]),
             acceleration: vec![0.0; n],
@@ -86,6 +110,11 @@ impl Curve<'_> {
         for (k, share) in SHARES.iter().enumerate() {
             for side in [1.0, -1.0] {
                 let there = s + side * (k + 1) as f64 * step;
+                let mut pieces = places.windows(2);
+                let piece = pieces.find(|piece| (piece[1].s() - there) * step >= 0.0);
+                let [a, b] = piece.unwrap_or(&places[places.len() - 2..]) else {
+                    return Ok(None);
+                };
                 let guess = self.guess(a, b, there);
                 let (q, rows) = self.position(guess, there)?;
                 let (Some(posture), Some(way)) =
@@ -93,7 +122,7 @@ impl Curve<'_> {
                 else {
                     return Ok(None);
                 };
-                if way.dot(&a.way) < ALONG || way.dot(&b.way) < ALONG {
+                if way.dot(&first.way) < ALONG || way.dot(&last.way) < ALONG {
                     return Ok(None);
                 }
                 let add = |sum: &mut Vec<f64>, part: &[f64]| {
