@@ -210,8 +210,8 @@ impl Kinematics {
         let index = spec.output_index(name)?;
         let OutputSpec { name, loaded, .. } = spec.outputs[index];
         if loaded && !self.constrained {
-            let reason = "depends on reactions, which are those of the motion that forces make, not of one in which coordinates are swept or \
-                          held; prescribe these by constraints, and sweep `t`";
+            let reason = "depends on reactions, which are those of the motion that forces make, not of one in which coordinates are swept \
+                          or held; prescribe these by constraints, and sweep `t`";
             return Err(Error::invalid(name, reason));
         }
         let mut row = vec![0.0; spec.outputs.len()];

@@ -280,8 +280,8 @@ fn two_rods_that_turn_off_together() {
     }
 }
 
-/// The lever of a crank that is longer than its distance turns with it, that of a shorter one swings; where both are equal, it goes straight
-/// on through its axle.
+/// The lever of a crank that is longer than its distance turns with it, that of a shorter one swings; where both are equal, it goes
+/// straight on through its axle.
 #[test]
 fn slotted_levers_turn_or_swing() {
     for d in [0.99, 0.999, 1.0 - 1e-6, 1.0, 1.0 + 1e-6, 1.001, 1.01] {

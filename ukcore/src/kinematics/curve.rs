@@ -4,16 +4,17 @@
 //! and Newton's method, whose steps of least length are at right angles to the curve. Of rows that imply each other as many are taken as
 //! were independent at the start, those that keep most beside the others.
 //!
-//! Where branches cross a combination of rows vanishes, and is reversed behind that place. Where they all but cross, each turns off sharply,
-//! and a step that went straight on would end on another one, with the same tangent; but there the combination is reversed, too. So a step
-//! over which one is reversed is halved, until the curve has been followed round the bend. If no bend shows before steps are so short that
-//! rounding hides it, that is a crossing, and the curve goes straight on.
+//! Where branches cross a combination of rows vanishes, and is reversed behind that place. Where they all but cross, each turns off
+//! sharply, and a step that went straight on would end on another one, with the same tangent; but there the combination is reversed, too.
+//! So a step over which one is reversed is halved, until the curve has been followed round the bend. If no bend shows before steps are so
+//! short that rounding hides it, that is a crossing, and the curve goes straight on.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::displacements::{INDEPENDENT, measure, pivoted};
 use crate::mechanism::{Evaluated, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
+use crate::spectrum::eigenvalues;
 use crate::zero::locate;
 
 /// Steps of Newton's method at most.
@@ -28,6 +29,8 @@ const WANTED: f64 = 0.15;
 const ROWS: f64 = 0.5;
 /// So many times as far as rounding hides where branches cross goes a step over that place.
 const OVER: f64 = 8.0;
+/// A place where branches may cross is gone to by this part of the way that is left.
+const NEARLY: f64 = 0.98;
 /// The first step, as a part of the sweep; and the least one, of what the curve is measured by, and of the coordinates, which are known to
 /// rounding.
 const FIRST: f64 = 1e-3;
@@ -190,13 +193,16 @@ impl Rows {
         shares
     }
 
-    /// Whether a combination of the independent rows is reversed, or as good as at right angles to what it was, `there`: whether the
-    /// symmetric part of what these rows are there, in combinations that are orthonormal here, is not positive definite.
+    /// Whether a combination of the independent rows vanishes on the straight way from these to what they are `there`, or turns by more
+    /// than a right angle. With these as they are there, in combinations that are orthonormal here, as B, one with (1 − τ) I + τ B
+    /// singular is an eigenvector of B with a negative eigenvalue. There is none where the symmetric part of B is positive definite,
+    /// which is found sooner.
     fn reversed(&self, there: &Rows) -> bool {
         let rows = there.matrix.select_rows(&self.order[..self.rank]);
         let mut rows = rows * self.turned.rows(0, self.rank).transpose();
         self.r.tr_solve_upper_triangular_mut(&mut rows);
         (&rows + rows.transpose()).cholesky().is_none()
+            && eigenvalues(&rows).is_none_or(|all| all.iter().any(|x| x.re <= 0.0))
     }
 
     /// By which angle at most one of the rows has turned `there`.
@@ -401,8 +407,9 @@ impl Curve<'_> {
         let (per, sense) = (self.units[from.x.len() - 1], from.speed().signum());
         let (size, rounding) = (self.scale(), ROUGH * self.size(&from.x));
         let least = (LEAST * size).max(rounding);
-        // Next to a crossing rounding moves the curve by its root.
-        let hidden = (rounding * self.radian()).sqrt().max(2.0 * least);
+        // Next to a crossing rounding moves coordinates by its root, and of a short sweep these are a part.
+        let moved = from.way.rows(0, from.x.len() - 1).norm();
+        let hidden = ((rounding * self.radian()).sqrt() / moved).max(2.0 * least);
         // The length along the curve in which s changes by `part`.
         let lasts = |place: &Place, part: f64| part / (per * place.speed().abs());
         let mut length = lasts(&from, FIRST).min(size);
@@ -420,13 +427,14 @@ impl Curve<'_> {
             if places.len() > STEPS {
                 break End::Long;
             }
+            let most = lasts(here, (1.1 * rest).max(FIRST));
             if within > 0.0 && !over && length < hidden {
-                (over, length) = (true, OVER * hidden);
+                (over, length) = (true, most.min(OVER * hidden));
             }
-            if length < least || over && length > TURN * self.radian() {
+            if length < least || over && length > most {
                 break End::Stuck;
             }
-            length = length.min(lasts(here, (1.1 * rest).max(FIRST)));
+            length = length.min(most);
             let step = self.beyond(here, length).filter(|step| {
                 let forward = step.place.speed() * sense > 0.0;
                 // No turn there and back again in between.
@@ -451,13 +459,19 @@ impl Curve<'_> {
                 crossings.push(places.len() - 1);
                 (within, over) = (0.0, false);
             }
+            let last = length;
             within -= length;
-            // What is known to be near is not overtaken.
-            length *= if within > 0.0 {
-                growth.min(1.0)
-            } else {
-                growth
-            };
+            length *= growth;
+            if within > 0.0 {
+                // The margin of the rows tells where it may vanish.
+                let slope = (rows.margin - there.margin) / last;
+                let ahead = if slope > 0.0 {
+                    there.margin / slope
+                } else {
+                    f64::INFINITY
+                };
+                length = length.min(NEARLY * ahead).max(hidden);
+            }
             let back = next.speed() * sense <= 0.0;
             if back {
                 next = self.turning(here, &next, sense);
