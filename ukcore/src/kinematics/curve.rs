@@ -29,6 +29,8 @@ const WANTED: f64 = 0.15;
 const ROWS: f64 = 0.5;
 /// So many times as far as rounding hides where branches cross goes a step over that place.
 const OVER: f64 = 8.0;
+/// Rows that keep more than this beside the others are far from a place where branches cross.
+const APART: f64 = 0.1;
 /// A place where branches may cross is gone to by this part of the way that is left.
 const NEARLY: f64 = 0.98;
 /// The first step, as a part of the sweep; and the least one, of what the curve is measured by, and of the coordinates, which are known to
@@ -404,6 +406,18 @@ impl Curve<'_> {
 
     /// Follows the curve from `from` until s has come to `until`, to where s turns back before, or to where there is no smooth way on.
     pub(super) fn follow(&self, from: Place, until: f64) -> Path {
+        let path = self.followed(from.clone(), until, true);
+        let last = path.places.last().filter(|_| path.end == End::Stuck);
+        let lost = last.is_some_and(|last| self.rows(&last.x, last.x.len() - 1).margin > APART);
+        // Rows that are far from implying each other stop nobody: one of them has all but vanished, and what is left of it is rounding.
+        let plain = lost.then(|| self.followed(from, until, false));
+        plain
+            .filter(|plain| plain.end != End::Stuck)
+            .unwrap_or(path)
+    }
+
+    /// The path from `from`; where it is `careful`, round all bends.
+    fn followed(&self, from: Place, until: f64, careful: bool) -> Path {
         let (per, sense) = (self.units[from.x.len() - 1], from.speed().signum());
         let (size, rounding) = (self.scale(), ROUGH * self.size(&from.x));
         let least = (LEAST * size).max(rounding);
@@ -440,7 +454,8 @@ impl Curve<'_> {
                 // No turn there and back again in between.
                 !forward || self.between(here, &step.place, 0.5).1 * sense > 0.0
             });
-            let reversed = !over && step.as_ref().is_some_and(|step| rows.reversed(&step.rows));
+            let reversed =
+                careful && !over && step.as_ref().is_some_and(|step| rows.reversed(&step.rows));
             let Some(step) = step.filter(|_| !reversed) else {
                 within = if reversed { length } else { within };
                 length *= if over { 2.0 } else { 0.5 };
