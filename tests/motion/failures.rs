@@ -251,6 +251,51 @@ fn a_motion_that_ends_in_finite_time_does_so_late_too() {
 }
 
 ukcore::multibody! {
+    /// A mass on a spring, or before a buffer.
+    pub Stopped {
+        params { k = 0.0, buffer = 0.0, f = 0.0 }
+        coords { x }
+        mass { x: 1.0 }
+        potential { 0.5 * k * sq(x) }
+        force { x: f - buffer * max(x - 1.0, 0.0) }
+    }
+}
+
+/// What is only too fast for a late time is told to be late, from wherever it begins.
+#[test]
+fn fast_motions_are_too_late_and_end_nowhere() {
+    let spring = |k: f64| Stopped {
+        k,
+        ..Stopped::default()
+    };
+    let buffer = |buffer: f64, f: f64| Stopped {
+        buffer,
+        f,
+        ..Stopped::default()
+    };
+    for (mechanism, x, v, t0) in [
+        (spring(1.78e13), 0.0, 1.0, 1.7e9),
+        (spring(1.78e13), 1.0, 0.0, 1.7e9),
+        (spring(1e12), 0.0, -3.0, 1e11),
+        (buffer(1e12, 0.0), 0.0, 1.0, 1e10),
+        (buffer(1e12, 0.5), 0.0, 1.0, 1e10),
+    ] {
+        let start = State {
+            t: t0,
+            q: vec![x],
+            v: vec![v],
+        };
+        let run = Simulation::new(mechanism).start(start).max_steps(20_000);
+        let Err(failure) = run.until(t0 + 3.0) else {
+            continue;
+        };
+        let (_, error) = place(&failure);
+        let late = matches!(error, Error::TooLate { .. } | Error::Rounding { .. });
+        assert!(late, "{x}, {v}, {t0:e}: {failure}");
+    }
+}
+
+ukcore::multibody! {
     /// A planet.
     pub Orbit {
         params { k = 1.0 }

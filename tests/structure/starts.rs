@@ -462,3 +462,31 @@ fn at_a_dead_centre_no_velocity_is_told() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// A parallelogram in angles, its crank driven.
+    Driven {
+        params { p = 1e-7, w = 2.0 }
+        coords { a, b, c }
+        mass { a: 1.0, b: 1.0, c: 1.0 }
+        holonomic {
+            x: 0.3 * cos(a) + cos(b) - 0.3 * cos(c) = 1.0
+            y: 0.3 * sin(a) + sin(b) - 0.3 * sin(c) = 0.0
+            motor: a = p + w * t
+        }
+        start go() { a near p; b near 0.0; c near p }
+    }
+}
+
+/// A place that is given, and not searched for, has velocities however near to a change point it is.
+#[test]
+fn a_place_that_is_given_has_its_velocities() {
+    for p in [1e-3, 1e-6, 1e-7, 1e-9, 1e-11] {
+        let driven = Driven {
+            p,
+            ..Driven::default()
+        };
+        let start = driven.start("go", &[].into()).expect("a start");
+        assert_all_close("velocities", &start.v, &[2.0, 0.0, 2.0], 1e-9);
+    }
+}

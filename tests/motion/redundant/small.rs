@@ -46,7 +46,7 @@ fn check<M: Mechanism>(masses: [f64; 2]) {
     let fall = 9.81 / (ma + (0.49 + 0.81) * mb);
     for method in [Method::Dop853, Method::Radau5] {
         for size in [0.0, 1e-12, 1e-8, 1e-6, 1e-4, 1e-3] {
-            for k in 0..6 {
+            for k in 0..if size > 0.0 { 6 } else { 1 } {
                 let a = size * (1.0 + 0.13 * f64::from(k));
                 let start = State {
                     t: 0.0,

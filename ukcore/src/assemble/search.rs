@@ -14,11 +14,13 @@ use crate::spectrum::singular;
 /// each time by the share for which it counts, in the end to rounding.
 const TIMES: usize = 3;
 
-/// Velocities that are this much larger than those wished for may be what rounding makes of a row that all but vanishes; singular values of
-/// less than this share are those of rows that others imply; and velocities that rounding changes by more than this share are lost.
+/// Velocities that are this much larger than those wished for may be what rounding makes of a row that all but vanishes. They are lost
+/// where rounding changes them by more than the second share.
 const SWEPT: f64 = 1e3;
-const IMPLIED: f64 = 1e-12;
 const LOST: f64 = 0.1;
+
+/// Singular values below this share of the largest one are those of rows that others imply.
+const IMPLIED: f64 = 1e-12;
 
 /// The search for q, then for q̇.
 pub(crate) struct Search {
@@ -77,69 +79,72 @@ impl Search {
             told.iter().for_each(|&j| v[j] = wish[j]);
             v = search.find(&at, &v)?;
         }
-        if search.is_swept(&wish, &v) && search.is_lost(mech, (guess.t, &q, &v), held) {
+        // A place that was given and not searched for is told to the last digit.
+        let searched = q != guess.q;
+        if searched && search.is_swept(&wish, &v) && search.is_lost(mech, (guess.t, &q, &v), held) {
             return Err(search.refused(&at, &wish));
         }
         Ok(State { t: guess.t, q, v })
     }
 
-    /// Whether velocities are far larger than those wished for.
+    /// The largest velocity, measured by how readily its coordinate moves.
+    fn fastest(&self, v: &[f64]) -> f64 {
+        let pairs = v.iter().zip(self.manifold.ease());
+        pairs.fold(0.0, |most: f64, (v, ease)| most.max((v / ease).abs()))
+    }
+
+    /// Whether velocities are far larger than those wished for, if there are some.
     fn is_swept(&self, wish: &[f64], v: &[f64]) -> bool {
-        let size = |v: &[f64]| {
-            let pairs = v.iter().zip(self.manifold.ease());
-            pairs.fold(0.0, |most: f64, (v, ease)| most.max((v / ease).abs()))
-        };
-        size(v) > SWEPT * size(wish)
+        let wish = self.fastest(wish);
+        wish > 0.0 && self.fastest(v) > SWEPT * wish
     }
 
     /// Whether other velocities belong to positions that the constraints do not tell from q: at a dead centre the square of a coordinate
     /// that is not held is all that they see of it.
     fn is_lost(&mut self, mech: &Prepared, (t, q, v): (f64, &[f64], &[f64]), held: &Held) -> bool {
-        let (n, h) = (q.len(), mech.spec().holonomic);
-        let ease = self.manifold.ease().to_vec();
-        let moves = |j: &usize| !held.positions.contains(j);
-        let free: Vec<usize> = (0..n).filter(moves).collect();
-        let mut jacobian = vec![0.0; n * mech.spec().m()];
-        mech.jacobian(t, q, v, &mut jacobian);
-        let entry = |c: usize, k: usize| jacobian[free[k] * mech.spec().m() + c] * ease[free[k]];
-        let rows = DMatrix::from_fn(h, free.len(), entry);
-        let Some(svd) = singular(rows, true, true) else {
+        let Some(off) = self.untold(mech, (t, q, v), &held.positions) else {
             return false;
         };
-        let mut unknown = vec![0.0; h];
-        let mut noise = Noise::new(mech);
-        noise.go(mech, t, [q, v], |_| [0.0; 2]);
-        noise.residual(&mut unknown);
-        let mut residual = vec![0.0; h];
-        mech.residual(t, q, &mut residual);
-        let pairs = unknown.iter_mut().zip(&residual);
-        pairs.for_each(|(unknown, r)| *unknown = r.abs().max(f64::EPSILON * *unknown));
-        let [Some(left), Some(right)] = [&svd.u, &svd.v_t] else {
-            return false;
-        };
-        let values = &svd.singular_values;
-        let least = (0..values.len()).filter(|k| values[*k] > IMPLIED * values.max());
-        let Some(least) = least.min_by(|a, b| values[*a].total_cmp(&values[*b])) else {
-            return false;
-        };
-        let (left, way) = (left.column(least), right.row(least));
-        let pairs = left.iter().zip(&unknown);
-        let off = pairs.map(|(u, r)| u.abs() * r).sum::<f64>() / values[least];
-        let mut beside = q.to_vec();
-        let pairs = free.iter().zip(way.iter());
-        pairs.for_each(|(j, way)| beside[*j] += off * way * ease[*j]);
+        let beside: Vec<f64> = q.iter().zip(off).map(|(q, off)| q + off).collect();
         let Ok(there) = self.find(&At::new(mech, Level::Velocity, t, &beside), v) else {
             return true;
         };
-        let norm = |v: &mut dyn Iterator<Item = f64>| -> f64 {
-            let pairs = v.zip(&ease);
-            pairs
-                .map(|(v, ease)| (v / ease).powi(2))
-                .sum::<f64>()
-                .sqrt()
-        };
-        let change = norm(&mut there.iter().zip(v).map(|(a, b)| a - b));
-        change > LOST * norm(&mut v.iter().copied())
+        let change: Vec<f64> = there.iter().zip(v).map(|(a, b)| a - b).collect();
+        self.fastest(&change) > LOST * self.fastest(v)
+    }
+
+    /// The largest change of q, but of the coordinates `held`, that what is left of the constraints, or rounding makes of them, does not
+    /// tell from none. `None` where there are no constraints.
+    fn untold(
+        &self,
+        mech: &Prepared,
+        (t, q, v): (f64, &[f64], &[f64]),
+        held: &[usize],
+    ) -> Option<Vec<f64>> {
+        let (m, h) = (mech.spec().m(), mech.spec().holonomic);
+        let ease = self.manifold.ease();
+        let free: Vec<usize> = (0..q.len()).filter(|j| !held.contains(j)).collect();
+        let mut jacobian = vec![0.0; q.len() * m];
+        mech.jacobian(t, q, v, &mut jacobian);
+        let entry = |c: usize, k: usize| jacobian[free[k] * m + c] * ease[free[k]];
+        let svd = singular(DMatrix::from_fn(h, free.len(), entry), true, true)?;
+        let (left, right, values) = (svd.u?, svd.v_t?, svd.singular_values);
+        let least = (0..values.len()).filter(|k| values[*k] > IMPLIED * values.max());
+        let least = least.min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+        let (mut residual, mut rounding) = (vec![0.0; h], vec![0.0; h]);
+        mech.residual(t, q, &mut residual);
+        let mut noise = Noise::new(mech);
+        noise.go(mech, t, [q, v], |_| [0.0; 2]);
+        noise.residual(&mut rounding);
+        let unknown = residual.iter().zip(&rounding);
+        let unknown = unknown.map(|(r, rounding)| r.abs().max(f64::EPSILON * rounding));
+        let left = left.column(least);
+        let off: f64 = left.iter().zip(unknown).map(|(u, r)| u.abs() * r).sum();
+        let mut change = vec![0.0; q.len()];
+        for (k, j) in free.iter().enumerate() {
+            change[*j] = off / values[least] * right[(least, k)] * ease[*j];
+        }
+        Some(change)
     }
 
     /// The solution where the equations fall apart, or have solutions that lie apart, next to the guess; `None` where they do neither, or

@@ -45,8 +45,10 @@ const STILL: f64 = 64.0 * f64::EPSILON;
 /// outweighs the forces.
 const FAST: f64 = 4.0;
 
-/// Accelerations that are so many times those of the start are no matter of a late time.
-const GROWN: f64 = 1e6;
+/// Accelerations that are so many times those of the start, and change velocities by this share within the rounding of the time, are no
+/// matter of a late time.
+const GROWN: f64 = 1e9;
+const TURNED: f64 = 0.01;
 
 /// A coordinate without mass that accelerates so many times as much as all that has mass, beside what is allowed, is left to itself.
 const LEFT_ALONE: f64 = 1e3;
@@ -176,12 +178,20 @@ fn too_fast(
     }
 }
 
-/// Whether accelerations are out of all proportion to those of the start, as where a motion ends in finite time: at an early time it would
-/// end there, too.
-fn grew(solver: &mut Solver, start: Sample<'_>, acceleration: &[f64]) -> bool {
-    let mut first = vec![0.0; acceleration.len()];
+/// Whether velocities change within `rounding` of the time by accelerations out of all proportion to those of the start, as where a motion
+/// ends in finite time: at an early time it would end there, too.
+fn ends(
+    solver: &mut Solver,
+    start: Sample<'_>,
+    (v, acceleration): (&[f64], &[f64]),
+    rounding: f64,
+) -> bool {
+    let mut first = vec![0.0; v.len()];
     let known = solver.acceleration(start.t, start.q, start.v, &mut first);
-    known.is_ok() && largest(acceleration) > GROWN * largest(&first)
+    let first = largest(&first);
+    let grew = known.is_ok() && first > 0.0 && largest(acceleration) > GROWN * first;
+    let mut pairs = acceleration.iter().zip(v);
+    grew && pairs.any(|(a, v)| (a * rounding).abs() > TURNED * v.abs() && *v != 0.0)
 }
 
 /// The error of a motion that constraints do not let go on in the direction of its velocity: those which its next positions violate end
@@ -495,8 +505,13 @@ pub(super) fn explain(
         let mut acceleration = vec![0.0; q.len()];
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         let known = solver.acceleration(*t, q, v, &mut acceleration).is_ok();
-        let late = matches!(trouble.error, Error::TooLate { .. });
-        if known && (!late || grew(&mut solver, start, &acceleration)) {
+        let late = match trouble.error {
+            Error::TooLate { rounding, .. } => {
+                !ends(&mut solver, start, (v, &acceleration), rounding)
+            }
+            _ => false,
+        };
+        if known && !late {
             let terms = standstill::terms(&mut solver, &trouble.state, &acceleration, step);
             if !terms.is_empty() {
                 trouble.error = Error::Chattering { step, terms };
