@@ -79,11 +79,7 @@ fn slider_cranks_whose_rod_is_all_but_as_long_as_the_crank() {
         1.001,
         1.01,
     ] {
-        let press = Press {
-            r: 1.0,
-            l,
-            ..Press::default()
-        };
+        let press = Press { r: 1.0, l };
         for n in [16, 60, 180, 720] {
             for (from, to) in [(0.3, 0.3 + TAU), (-0.5, 2.0 * PI), (1.0, -PI)] {
                 let start = press.start("turned", &[("angle", from)].into()).unwrap();
