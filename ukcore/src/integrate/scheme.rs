@@ -69,7 +69,7 @@ impl Equations<'_> {
             let at = self.at(s, y);
             self.switches.look(self.problem, at);
         }
-        // A state kept for the case of an error would be copied in any.
+        // One that were kept for an error would be copied at each evaluation.
         let result = self.problem.acceleration(self.at(s, y), out);
         result.map_err(|error| self.course.note(self.at(s, y), error))
     }

@@ -45,8 +45,8 @@ macro_rules! table {
         }
 
         impl<M: Mechanism, S: Scalar> $Table<S> for Of<M> {
-            // Arguments in this order are handed on one by one: two that lie beside each other on the stack would be read at
-            // once, while they have not got there.
+            // With `prepared` first, two arguments would be read off the stack at once that have come there one by one: a processor
+            // waits for that, some 10 ns a call.
             $(fn $name(&self, $($x: $X,)* prepared: &[S]) $(-> $out)? {
                 M::$name(prepared, $($x),*)
             })*
