@@ -11,16 +11,18 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, Search as Assembly, State, assembled, held};
-use crate::displacements::{constraint_matrix, mass_matrix, null_space_holding, reversed, units};
+use crate::displacements::{constraint_matrix, mass_matrix, null_space_holding, units};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{is_symmetric, linear_motion, steady};
+use crate::modes::{Linear, is_symmetric, linear_motion, steady};
 use crate::naming::undirected;
-use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
+
+mod potential;
+mod way;
 
 /// A rest position.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,9 +50,6 @@ const STEPS: usize = 200;
 const CAREFUL_STEPS: usize = 1000;
 /// A displacement for differences of forces, as a part of the coordinates, where coordinates are held.
 const DIFFERENCE: f64 = 1e-6;
-/// A displacement for differences of the potential, in the same way, and the share of forces that these are known to.
-const SLOPE: f64 = 1e-5;
-const MATCHED: f64 = 1e-6;
 /// Forces below this share of their parts are rounding.
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
@@ -72,11 +71,6 @@ const BENT: f64 = 0.5;
 const LONGER: f64 = 2.0;
 /// On a way shorter than this part of the coordinates a singular position is gone over, as where branches cross.
 const MET: f64 = 1e-4;
-/// A step longer than this part of the coordinates may have come over what stands in its way; it is looked at after these parts.
-const SHORT: f64 = 0.05;
-const LOOKS: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-/// What constraints allow turns by at most this angle, rad, between two looks.
-const TURN: f64 = 0.5;
 /// A stiffness below this part of the largest one may be none, where this part of what the largest one gives is to be gained along it.
 const WEAK: f64 = 1e-2;
 const GAINED: f64 = 0.1;
@@ -427,78 +421,15 @@ impl Search {
         })
     }
 
-    /// Whether Q and c at this state of rest are those of the potential, as far as its differences tell: those to both sides of the state,
-    /// or, beside a kink of its slope as at a stop, those to one.
-    fn is_driven_by_potential(&self, state: &State, units: &DVector<f64>) -> bool {
-        let (mech, State { t, q, v }) = (&self.mech, state);
-        if mech.spec().structure.conservative {
-            return true;
-        }
-        let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
-        terms.dynamics(mech, *t, q, v);
-        let here = mech.energy(*t, q, v).potential;
-        let (mut off, mut parts) = (0.0_f64, 0.0);
-        let mut moved = q.clone();
-        for (i, unit) in units.iter().enumerate() {
-            let h = SLOPE * self.size * unit;
-            let mut rise = |part: f64| {
-                moved[i] = q[i] + part * h;
-                let there = mech.energy(*t, &moved, v).potential;
-                moved[i] = q[i];
-                (there - here, f64::EPSILON * (there.abs() + here.abs()))
-            };
-            let force = terms.force[i] + terms.nonideal[i];
-            let (mut slope, mut rounding, mut miss) = (0.0, 0.0, f64::INFINITY);
-            for [one, other] in [[1.0, -1.0], [1.0, 2.0], [-1.0, -2.0]] {
-                let shares = [other / one, -one / other].map(|x| x / (other - one) / h);
-                let (near, far) = (rise(one), rise(other));
-                let tried = shares[0] * near.0 + shares[1] * far.0;
-                if (force + tried).abs() < miss {
-                    (slope, miss) = (tried, (force + tried).abs());
-                    rounding = shares[0].abs() * near.1 + shares[1].abs() * far.1;
-                }
-                if miss <= MATCHED * slope.abs() {
-                    break;
-                }
-            }
-            off = off.max(miss * unit);
-            // What rounding makes of the difference, too.
-            parts += (force.abs() + slope.abs() + rounding / MATCHED) * unit;
-        }
-        off <= MATCHED * parts && !self.is_held_by_turning(state, units)
-    }
-
-    /// Whether forces turn velocities, as those of a frame that turns do: they may hold what is at the top of a potential, whatever else
-    /// damps it. That is so where ∂(Q + c)/∂q̇ is not symmetric at rest; what has no derivative there, as friction, resists whatever moves.
-    fn is_held_by_turning(&self, state: &State, units: &DVector<f64>) -> bool {
-        let (n, sloped) = (state.q.len(), self.mech.sloped());
-        let constant = |x: &f64| Sloped::from_f64(*x);
-        let (t, q) = (constant(&state.t), state.q.iter().map(constant));
-        let q: Vec<Sloped> = q.collect();
-        let mut terms = Evaluated::<Sloped>::new(n, self.mech.spec().m());
-        let mut slopes = DMatrix::<f64>::zeros(n, n);
-        for first in (0..n).step_by(Slopes::COUNT) {
-            let v = (0..n).map(|j| Sloped::new(0.0, Slopes::unit(j, first)));
-            terms.dynamics(&sloped, t, &q, &v.collect::<Vec<_>>());
-            for j in first..n.min(first + Slopes::COUNT) {
-                for i in 0..n {
-                    let along = |force: &[Sloped]| force[i].eps.along(j - first);
-                    let slope = along(&terms.force) + along(&terms.nonideal);
-                    slopes[(i, j)] = units[i] * units[j] * slope;
-                }
-            }
-        }
-        let largest = |matrix: &DMatrix<f64>| {
-            let finite = matrix.iter().filter(|x| x.is_finite());
-            finite.fold(0.0_f64, |most, x| most.max(x.abs()))
-        };
-        largest(&(&slopes - slopes.transpose())) > MATCHED * largest(&slopes)
-    }
-
     /// The place where `step` leads, if forces fade towards it that [`modes`](crate::modes()) would not yet take for those of rest: where a
     /// stiffness vanishes each step leaves a part of the way.
     fn nearer(&mut self, here: &Place, step: &DVector<f64>) -> Option<Place> {
-        if !self.held.is_empty() || steady(&self.mech, &here.state).is_ok() {
+        if !self.held.is_empty() {
+            return None;
+        }
+        let linear = Linear::at(&self.mech, &here.state);
+        let rests = linear.and_then(|linear| steady(&self.mech, &here.state, &linear));
+        if rests.is_ok() {
             return None;
         }
         let there = self.moved(here, step).ok()?;
@@ -525,43 +456,6 @@ impl Search {
         share: f64,
     ) -> Result<Place, Error> {
         self.place(from.aside(change, share))
-    }
-
-    /// Whether nothing stands between one place and the other on the way by `step`, as far as places between tell: no singular position,
-    /// where a combination of constraints is reversed, or beside which what they allow turns at once; and no barrier, behind which a
-    /// potential that has risen falls once more.
-    fn is_clear(&self, from: &Place, step: &DVector<f64>, to: &Place) -> bool {
-        let change = self.change(from, step);
-        let looks = if from.part(&change) > SHORT {
-            &LOOKS[..]
-        } else {
-            &[]
-        };
-        let between = looks.iter().map(|share| {
-            let guess = from.aside(&change, *share);
-            let state = assembled(&self.mech, &guess, self.positions()).ok()?;
-            let energy = self.mech.energy(state.t, &state.q, &state.v);
-            let (basis, rows) = self.ways_at(&state, &from.units);
-            Some((basis, rows, energy.potential))
-        });
-        let [first, last] = [from, to].map(|place| {
-            let potential = place.potential.unwrap_or_default();
-            (place.basis.clone(), place.rows.clone(), potential)
-        });
-        let falls = from.potential.is_some() && to.potential.is_some();
-        let (mut before, mut risen) = (first, false);
-        between.chain([Some(last)]).all(|there| {
-            let Some((basis, rows, potential)) = there else {
-                return false;
-            };
-            let turned = basis.ncols() == before.0.ncols() && turn(&before.0, &basis) > TURN;
-            let clear = !turned && !reversed(before.1.clone(), rows.clone());
-            let rounding = BALANCED * (potential.abs() + before.2.abs());
-            let barred = falls && risen && potential < before.2 - rounding;
-            risen |= potential > before.2 + rounding;
-            before = (basis, rows, potential);
-            clear && !barred
-        })
     }
 
     /// Displacements that constraints and held coordinates allow at `state`, and the rows of holonomic constraints.
@@ -677,7 +571,8 @@ impl Search {
     /// What the stiffness tells, and where nothing is held the modes.
     fn stability(&mut self, here: &Place, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
         if self.held.is_empty() {
-            let (modes, grows) = linear_motion(&self.mech, &here.state)?;
+            let linear = Linear::at(&self.mech, &here.state)?;
+            let (modes, grows) = linear_motion(&self.mech, &here.state, &linear)?;
             if grows || modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);
             }
@@ -720,13 +615,6 @@ fn is_unexplained(here: &Place, stiffness: &DMatrix<f64>, first: f64) -> Option<
     let left = (force.abs() - explained).map(|left| left.max(0.0));
     let limit = LEFT * first.max(here.parts);
     Some(left.norm() > limit)
-}
-
-/// The largest angle by which directions of one of two orthonormal bases of as many are off those of the other one.
-fn turn(basis: &DMatrix<f64>, other: &DMatrix<f64>) -> f64 {
-    let off = other - basis * basis.tr_mul(other);
-    let off = spectrum::singular(off, false, false).map(|svd| svd.singular_values.amax());
-    off.map_or(f64::INFINITY, |sine| sine.min(1.0).asin())
 }
 
 /// The symmetric part of `matrix`.

@@ -74,17 +74,23 @@ impl Mode {
 /// - What [`Linearisation::at`] reports.
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
     let mech = mechanism.into();
-    steady(&mech, state)?;
-    linear_motion(&mech, state).map(|(modes, _)| modes)
+    let linear = Linear::at(&mech, state)?;
+    steady(&mech, state, &linear)?;
+    linear_motion(&mech, state, &linear).map(|(modes, _)| modes)
 }
 
 /// The [`modes`](modes()) about `state`, which is at rest or in a steady motion, or taken for that, and whether what none of them tells
 /// grows: deviations at an eigenvalue of 0 faster than in proportion to time, a vibration that lasts in proportion to it.
-pub(crate) fn linear_motion(mech: &Prepared, state: &State) -> Result<(Vec<Mode>, bool), Error> {
-    let found = Linearisation::at(mech, state)?;
-    let units = units(mech, state);
-    let (flow, pace) = flow(&found, &units);
-    let tangent = tangent(mech, state, &units, pace);
+pub(crate) fn linear_motion(
+    mech: &Prepared,
+    state: &State,
+    linear: &Linear,
+) -> Result<(Vec<Mode>, bool), Error> {
+    let Linear {
+        units, flow, pace, ..
+    } = linear;
+    let pace = *pace;
+    let tangent = tangent(mech, state, units, pace);
     if tangent.ncols() == 0 {
         return Ok((Vec::new(), false));
     }
@@ -138,7 +144,7 @@ pub(crate) fn linear_motion(mech: &Prepared, state: &State) -> Result<(Vec<Mode>
         shapes[k].shape.clone_from(shape);
     }
     let grows = !swings && grows(&reduced, &shapes);
-    let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(mech, &units)).collect();
+    let mut modes: Vec<Mode> = shapes.iter().map(|x| x.mode(mech, units)).collect();
     modes.sort_by(|a, b| {
         let by_frequency = a.frequency.total_cmp(&b.frequency);
         by_frequency.then(a.growth.total_cmp(&b.growth))
@@ -349,27 +355,53 @@ fn apart(mut all: DMatrix<f64>) -> DMatrix<f64> {
     all
 }
 
-/// F in `units`, by a time in which accelerations are as large as what they follow from: so many of it are a second.
-fn flow(found: &Linearisation, units: &DVector<f64>) -> (DMatrix<f64>, f64) {
-    let n = units.len();
-    let scaled =
-        |slopes: &[f64]| DMatrix::from_fn(n, n, |i, j| units[j] / units[i] * slopes[j * n + i]);
-    let (by_position, by_velocity) = (scaled(&found.by_position), scaled(&found.by_velocity));
-    let pace = or_one(by_position.norm().sqrt().max(by_velocity.norm()));
-    let mut flow = DMatrix::zeros(2 * n, 2 * n);
-    flow.view_mut((0, n), (n, n)).fill_diagonal(1.0);
-    flow.view_mut((n, 0), (n, n))
-        .copy_from(&(by_position / (pace * pace)));
-    flow.view_mut((n, n), (n, n))
-        .copy_from(&(by_velocity / pace));
-    (flow, pace)
+/// The linearised motion about a state.
+pub(crate) struct Linear {
+    acceleration: Vec<f64>,
+    units: DVector<f64>,
+    /// F in these units, by a time in which accelerations are as large as what they follow from.
+    flow: DMatrix<f64>,
+    /// So many of these times are a second.
+    pace: f64,
+}
+
+impl Linear {
+    /// That of `mech` about `state`.
+    ///
+    /// # Errors
+    /// What [`Linearisation::at`] reports.
+    pub(crate) fn at(mech: &Prepared, state: &State) -> Result<Self, Error> {
+        let found = Linearisation::at(mech, state)?;
+        let units = units(mech, state);
+        let n = units.len();
+        let scaled =
+            |slopes: &[f64]| DMatrix::from_fn(n, n, |i, j| units[j] / units[i] * slopes[j * n + i]);
+        let (by_position, by_velocity) = (scaled(&found.by_position), scaled(&found.by_velocity));
+        let pace = or_one(by_position.norm().sqrt().max(by_velocity.norm()));
+        let mut flow = DMatrix::zeros(2 * n, 2 * n);
+        flow.view_mut((0, n), (n, n)).fill_diagonal(1.0);
+        flow.view_mut((n, 0), (n, n))
+            .copy_from(&(by_position / (pace * pace)));
+        flow.view_mut((n, n), (n, n))
+            .copy_from(&(by_velocity / pace));
+        let acceleration = found.acceleration;
+        Ok(Linear {
+            acceleration,
+            units,
+            flow,
+            pace,
+        })
+    }
 }
 
 /// Refuses a state at which a coordinate accelerates, beside what accelerations there are made up of.
-pub(crate) fn steady(mech: &Prepared, state: &State) -> Result<(), Error> {
-    let found = Linearisation::at(mech, state)?;
-    let units = units(mech, state);
-    let (flow, pace) = flow(&found, &units);
+pub(crate) fn steady(mech: &Prepared, state: &State, linear: &Linear) -> Result<(), Error> {
+    let Linear {
+        acceleration,
+        units,
+        flow,
+        pace,
+    } = linear;
     let (n, State { t, q, v }) = (mech.spec().n(), state);
     // A way that takes the mechanism into another shape: a radian, or as far as that takes what turns; the unit of length where no
     // constraint tells any.
@@ -388,12 +420,12 @@ pub(crate) fn steady(mech: &Prepared, state: &State) -> Result<(), Error> {
     let mut noise = Noise::new(mech);
     noise.go(mech, *t, [q, v], |_| [0.0; 2]);
     noise.force(&mut rounding);
-    let rounding = DVector::from_vec(rounding).component_mul(&units) * (ROUNDINGS * f64::EPSILON);
+    let rounding = DVector::from_vec(rounding).component_mul(units) * (ROUNDINGS * f64::EPSILON);
     // Forces of constraints balance others.
     let solved = Solver::new(mech, SolverOptions::default()).solve(*t, q, v)?;
-    let ideal = DVector::from_vec(solved.ideal_force).component_mul(&units);
+    let ideal = DVector::from_vec(solved.ideal_force).component_mul(units);
     let left = parts.amax().max(REST * ideal.amax()).max(rounding.amax());
-    let accelerations = found.acceleration.iter().zip(units.iter());
+    let accelerations = acceleration.iter().zip(units.iter());
     for (i, (a, unit)) in accelerations.enumerate() {
         if (a / unit).abs() > left {
             let name = mech.spec().coords[i];

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{Press, swept};
 use tests::assert_close;
+use ukcore::studies::Kinematics;
 use ukcore::{Mechanism, State, assemble, kinematics};
 
 ukcore::multibody! {
@@ -53,6 +54,7 @@ ukcore::multibody! {
                 across[i]: sin(a) + l[i] * sin(b[i]) = 0
             }
         }
+        start level { a = 0.3; b near [-0.3, PI + 0.3]; x near [2.0, 0.0] }
     }
 }
 
@@ -64,6 +66,16 @@ ukcore::multibody! {
         mass { a: 1.0, s: 1.0, u: 1.0 }
         holonomic { x: r * cos(a) - d = s * cos(u), y: r * sin(a) = s * sin(u) }
     }
+}
+
+/// A sweep in `n` steps is not stopped.
+#[track_caller]
+fn assert_through(found: &Kinematics, n: usize, place: &str) {
+    assert_eq!(
+        (found.limits.len(), found.postures.len()),
+        (0, n + 1),
+        "{place}"
+    );
 }
 
 /// A crank turns all the way under a longer rod, which swings to and fro, and is stopped by a shorter one.
@@ -91,7 +103,7 @@ fn slider_cranks_whose_rod_is_all_but_as_long_as_the_crank() {
                         assert_close("limit", limits[0], (to - from).signum() * l.asin(), 1e-10);
                     }
                     false => {
-                        assert_eq!((limits.len(), found.postures.len()), (0, n + 1), "{l} {n}")
+                        assert_through(&found, n, &format!("{l} {n}"));
                     }
                 }
                 let all = ["rod.angle", "ram.x"].map(|name| {
@@ -153,11 +165,7 @@ fn four_bars_near_their_change_point() {
                 assert_eq!(found.limits.len(), 1, "{d} {n}");
                 assert_close("limit", found.limits[0].drives[0].1, limit, 1e-10);
             } else {
-                assert_eq!(
-                    (found.limits.len(), found.postures.len()),
-                    (0, n + 1),
-                    "{d} {n}"
-                );
+                assert_through(&found, n, &format!("{d} {n}"));
             }
             for posture in &found.postures {
                 let [a, b, c] = posture.state.q[..] else {
@@ -192,11 +200,7 @@ fn all_but_parallel_cranks() {
         let start = assemble(&bars, &guess, &["a"]).unwrap();
         for n in [12, 90, 720] {
             let found = swept(&bars, &start, "a", 1.0..1.0 + 3.0 * TAU, n);
-            assert_eq!(
-                (found.limits.len(), found.postures.len()),
-                (0, n + 1),
-                "{e} {n}"
-            );
+            assert_through(&found, n, &format!("{e} {n}"));
             for posture in &found.postures {
                 let [a, b, c] = posture.state.q[..] else {
                     unreachable!()
@@ -223,11 +227,7 @@ fn a_spherical_linkage_near_its_change_point() {
                 assert_eq!(found.limits.len(), 1, "{short} {n}");
                 assert_close("limit", found.limits[0].drives[0].1, limit, 1e-10);
             } else {
-                assert_eq!(
-                    (found.limits.len(), found.postures.len()),
-                    (0, n + 1),
-                    "{short} {n}"
-                );
+                assert_through(&found, n, &format!("{short} {n}"));
             }
             let sides = found.output("side").unwrap();
             for (side, a) in sides.into_iter().zip(found.coordinate("a").unwrap()) {
@@ -251,21 +251,10 @@ fn two_rods_that_turn_off_together() {
         [1.0, 1.1],
     ] {
         let boxer = Boxer { l };
-        let guess = State::guess::<Boxer>(&[
-            ("a", 0.3),
-            ("b[0]", -0.3),
-            ("b[1]", PI + 0.3),
-            ("x[0]", 2.0),
-        ])
-        .unwrap();
-        let start = assemble(&boxer, &guess, &["a"]).unwrap();
+        let start = boxer.start("level", &[].into()).unwrap();
         for n in [20, 60, 200] {
             let found = swept(&boxer, &start, "a", 0.3..0.3 + TAU, n);
-            assert_eq!(
-                (found.limits.len(), found.postures.len()),
-                (0, n + 1),
-                "{l:?} {n}"
-            );
+            assert_through(&found, n, &format!("{l:?} {n}"));
             for posture in &found.postures {
                 let a = posture.state.q[0];
                 let rods = l.map(|l| if l == 1.0 { a } else { (a.sin() / l).asin() });
@@ -290,11 +279,7 @@ fn slotted_levers_turn_or_swing() {
         let start = State::guess::<Slotted>(&[("a", 1.0), ("s", s), ("u", u)]).unwrap();
         for n in [30, 90, 360] {
             let found = swept(&slotted, &start, "a", 1.0..1.0 + TAU, n);
-            assert_eq!(
-                (found.limits.len(), found.postures.len()),
-                (0, n + 1),
-                "{d} {n}"
-            );
+            assert_through(&found, n, &format!("{d} {n}"));
             for posture in &found.postures {
                 let [a, s, u] = posture.state.q[..] else {
                     unreachable!()
@@ -327,17 +312,10 @@ fn slotted_levers_turn_or_swing() {
 fn crossings_to_rounding_are_passed() {
     for l in [1.0 - 1e-15, 1.0, 1.0 + 1e-15] {
         let boxer = Boxer { l: [l, 2.0] };
-        let guess = State::guess::<Boxer>(&[
-            ("a", 0.3),
-            ("b[0]", -0.3),
-            ("b[1]", PI + 0.3),
-            ("x[0]", 2.0),
-        ])
-        .unwrap();
-        let start = assemble(&boxer, &guess, &["a"]).unwrap();
+        let start = boxer.start("level", &[].into()).unwrap();
         let found =
             kinematics(boxer.prepared(), &start, &[("a", 0.3..0.3 + TAU)], &[], 90).unwrap();
-        assert_eq!((found.limits.len(), found.postures.len()), (0, 91), "{l}");
+        assert_through(&found, 90, &format!("{l}"));
         for posture in &found.postures {
             assert_close("rod", posture.state.q[1], -posture.state.q[0], 1e-7);
         }

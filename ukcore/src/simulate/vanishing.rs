@@ -9,8 +9,6 @@
 //! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
 //! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
 
-use std::rc::Rc;
-
 use super::independence::{Independence, counting};
 use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
@@ -23,8 +21,10 @@ use crate::scan::dot;
 use crate::solver::RANK_CEILING;
 use crate::zero::locate;
 use matrix::Matrix;
+use within::LOOKS;
 
 mod matrix;
+mod within;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as fast and gaining speed as they did, and after
 /// this many times the time since they were looked at last.
@@ -49,10 +49,6 @@ const INDEPENDENT: f64 = 1e-9;
 /// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
 /// direction.
 pub(super) const BEFORE: f64 = 0.01;
-
-/// Parts of a step at which rows are looked at first, beside its ends and where the motion turns back, so unevenly that no turns come out
-/// even at all of them.
-const LOOKS: [f64; 3] = [0.19, 0.45, 0.68];
 
 /// A step over which a combination of rows is reversed is halved so often in search of the place.
 const HALVINGS: i32 = 8;
@@ -277,120 +273,6 @@ impl RowWatch {
             reached: most / found.size,
             ..found
         })
-    }
-
-    /// The first row that is reversed between states within the step from `old` to `new`, even if it is as it was at its end.
-    fn within(
-        &mut self,
-        mech: &Prepared,
-        old: Sample<'_>,
-        new: Sample<'_>,
-        rests: bool,
-    ) -> Option<Vanishing> {
-        if !self.may[..self.holonomic].contains(&true) {
-            return None;
-        }
-        let mut parts = LOOKS.to_vec();
-        if rests {
-            parts.push(turning(old, new));
-            parts.sort_by(f64::total_cmp);
-        }
-        let mut looks = std::mem::take(&mut self.looks);
-        let [start, rest @ ..] = &mut looks;
-        let known = self.seen.t == old.t;
-        if !known {
-            self.look_at(mech, old, start);
-        }
-        let mut state = old.to_state();
-        for (part, matrix) in parts.iter().zip(rest) {
-            go_between(old, new, *part, &mut state);
-            self.look_at(mech, Sample::from(&state), matrix);
-        }
-        let mut all = vec![(0.0, if known { &self.seen } else { &looks[0] })];
-        all.extend(parts.into_iter().zip(&looks[1..]));
-        all.push((1.0, &self.here));
-        let (mut still, mut turns) = (true, vec![0.0; self.holonomic]);
-        for pair in all.windows(2).rev() {
-            still &= (self.turned([pair[0].1, pair[1].1], |c, share| turns[c] += share)).0;
-        }
-        let found = (!still).then(|| self.first_reversed(mech, old, new, &all));
-        self.turns = turns.into_iter().fold(0.0, f64::max);
-        self.looks = looks;
-        found.flatten()
-    }
-
-    /// Takes A at a state, and the lengths of its rows.
-    fn look_at(&self, mech: &Prepared, at: Sample<'_>, matrix: &mut Matrix) {
-        matrix.t = f64::NAN;
-        matrix.take(mech, at, self.measure.as_ref());
-        matrix.measure(&self.leaves);
-    }
-
-    /// Whether no holonomic row that may vanish changes by much between two states, and the first that is reversed there; calls `each` with
-    /// such rows and the share of their greater length by which they change.
-    fn turned(
-        &self,
-        [from, to]: [&Matrix; 2],
-        mut each: impl FnMut(usize, f64),
-    ) -> (bool, Option<usize>) {
-        let (mut still, mut reversed) = (true, None::<usize>);
-        (self.leaves).changes([&from.entries, &to.entries], |c, change, product| {
-            if !self.may[c] || c >= self.holonomic {
-                return;
-            }
-            let share = (change / from.squares[c].max(to.squares[c])).sqrt();
-            still &= share <= CHANGE;
-            if product < 0.0 {
-                reversed = Some(reversed.map_or(c, |first| first.min(c)));
-            }
-            each(c, share);
-        });
-        (still, reversed)
-    }
-
-    /// The first row that is reversed on parts of the step from `old` to `new` so short that it does not only turn, with A at some places
-    /// of it.
-    fn first_reversed(
-        &self,
-        mech: &Prepared,
-        old: Sample<'_>,
-        new: Sample<'_>,
-        looks: &[(f64, &Matrix)],
-    ) -> Option<Vanishing> {
-        let at = |part: f64| between_states(old, new, part);
-        let places = looks.iter();
-        let places: Vec<_> = places
-            .map(|(part, matrix)| (*part, Rc::new((*matrix).clone())))
-            .collect();
-        // What is left to look at, the first part last.
-        let pairs = places.windows(2).rev();
-        let mut parts: Vec<_> = pairs
-            .map(|pair| (pair[0].clone(), pair[1].clone()))
-            .collect();
-        while let Some((from, to)) = parts.pop() {
-            let (still, reversed) = self.turned([&from.1, &to.1], |_, _| ());
-            if still {
-                continue;
-            }
-            if to.0 - from.0 > 0.5_f64.powi(HALVINGS) {
-                let middle = 0.5 * (from.0 + to.0);
-                let mut between = Matrix::default();
-                self.look_at(mech, Sample::from(&at(middle)), &mut between);
-                let between = (middle, Rc::new(between));
-                parts.push((between.clone(), to));
-                parts.push((from, between));
-                continue;
-            }
-            let Some(row) = reversed else {
-                continue;
-            };
-            let ends = self.here.length(row).min(looks[0].1.length(row));
-            let near = at((from.0 - BEFORE).max(0.0));
-            let least = from.1.length(row).min(to.1.length(row));
-            let t = at(0.5 * (from.0 + to.0)).t;
-            return Some(self.found(row, near, t, [least / ends, ends / self.sizes[row]]));
-        }
-        None
     }
 
     /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does, other than at the time `over`. One
