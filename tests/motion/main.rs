@@ -5,6 +5,7 @@ mod bearings;
 mod branches;
 mod cells;
 mod closed_plane;
+mod copied;
 mod crossings;
 mod dips;
 mod failures;

@@ -225,16 +225,25 @@ pub(super) fn just_ahead(mech: &Prepared, here: &State, within: f64) -> Option<S
     })
 }
 
-/// Whether a row of A that is small at a state, beside what it has been, says something there that the others do not.
-pub(super) fn counts(mech: &Prepared, vanishing: &Vanishing) -> bool {
+/// Whether a row of A that is small at a state, beside what it has been, or one that vanishes with it, says something there that the others
+/// do not; it is that one from now on.
+pub(super) fn counts(mech: &Prepared, vanishing: &mut Vanishing) -> bool {
     let Some(search) = Search::at(mech, &vanishing.near, Some(vanishing)) else {
         return false;
     };
     let cod = &search.dense.cod;
-    let place = cod.order().iter().position(|c| *c == vanishing.row);
-    let left = place.and_then(|place| cod.pivots().get(place));
     let all = vanishing.size_in(search.terms.rows());
-    left.is_some_and(|left| *left > RANK_CEILING * all)
+    let rows = cod.order().iter().zip(cod.pivots());
+    let counting =
+        rows.filter(|(c, left)| vanishing.sizes[**c] > 0.0 && **left > RANK_CEILING * all);
+    let counting: Vec<usize> = counting.map(|(c, _)| *c).collect();
+    if !counting.contains(&vanishing.row) {
+        let Some(other) = counting.first() else {
+            return false;
+        };
+        vanishing.row = *other;
+    }
+    true
 }
 
 /// When a motion meets a place, some time about `t`, where a nonholonomic row vanishes and all motions lead. `None` if there is none, or

@@ -217,13 +217,13 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
             })
         }
         Loss::Within {
-            row,
+            mut row,
             ends: [from, to],
             otherwise,
         } => {
             // Also where nothing tells whether the motion turns there: shorter steps do.
             let met = |position: &Singular| (position.t - from) * (to - position.t) > 0.0;
-            let found = crossing::counts(mech, &row)
+            let found = crossing::counts(mech, &mut row)
                 .then(|| crossing::find(mech, &row.near, Some(&row)))
                 .flatten();
             match found.filter(met) {
@@ -252,17 +252,17 @@ fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Opti
         // Where it stands nothing but rounding gives the row a direction.
         found.near = between_states(old, Sample::from(&found.near), 1.0 - BEFORE);
     }
-    let Vanishing {
-        row, near, reached, ..
-    } = &found;
     let mut met = None;
     let spec = mech.spec();
-    if !crossing::counts(mech, &found) {
-        let implied = *row < spec.holonomic && !found.rest;
+    if !crossing::counts(mech, &mut found) {
+        let implied = found.row < spec.holonomic && !found.rest;
         return implied
             .then(|| crossing::implied(mech, old.t, &found))
             .flatten();
     }
+    let Vanishing {
+        row, near, reached, ..
+    } = &found;
     // The row when it is least, and where the step began.
     let sizes = || {
         let mut place = near.q.clone();
@@ -286,6 +286,11 @@ fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Opti
         // It may leave in any direction, whichever way it came.
     } else if *row < spec.holonomic {
         if let Some(position) = crossing::find(mech, near, Some(&found)) {
+            // A motion that had met it would have the row reversed.
+            let behind = (position.t - near.t) * (near.t - old.t) < 0.0;
+            if behind && reversed.is_none() && position.gap.is_nan() {
+                return None;
+            }
             return Some(Singular {
                 significance: *reached,
                 ..position
@@ -309,10 +314,19 @@ fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Opti
     // Steps are too long yet to tell, or there is more than one way to go on.
     let t = met.unwrap_or(found.t);
     let way = (t - old.t).abs();
-    let told = if found.rest { *reached } else { found.least } >= UNTOLD;
-    let missed = (told && met.is_none()).then_some(found.least);
+    let least = found.least;
+    // Where it rests the row grows with the square of the time.
+    let (told, share, significance) = match found.rest {
+        true => (
+            *reached >= UNTOLD,
+            (least / (reached - least)).sqrt(),
+            least,
+        ),
+        false => (least >= UNTOLD, least, *reached),
+    };
+    let missed = (told && met.is_none()).then_some(share);
     let constraints = vec![spec.constraints[*row].name.to_owned()];
-    (t != stood).then(|| Singular::seen(t, way, missed, *reached, constraints))
+    (t != stood).then(|| Singular::seen(t, way, missed, significance, constraints))
 }
 
 /// The size of the coordinates at a state, measured; where all are zero, of a radian, or of the lengths in the constraints.

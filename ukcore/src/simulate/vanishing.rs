@@ -80,8 +80,8 @@ pub(super) enum Loss {
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
     pub(super) row: usize,
-    /// The row's greatest length so far, measured by this scale.
-    pub(super) size: f64,
+    /// Greatest lengths so far, measured by this scale: of the row and those that vanish with it, as its copies do; 0 for others.
+    pub(super) sizes: Vec<f64>,
     pub(super) scale: Vec<f64>,
     /// When the row had that length.
     pub(super) largest: f64,
@@ -101,7 +101,7 @@ pub(super) struct Vanishing {
 impl Vanishing {
     /// How large the row is in `rows` of A, beside what it has been.
     pub(super) fn size_in(&self, rows: Rows<'_>) -> f64 {
-        rows.largest(self.row, &self.scale) / self.size
+        rows.largest(self.row, &self.scale) / self.sizes[self.row]
     }
 }
 
@@ -197,8 +197,8 @@ impl RowWatch {
         let mut rows: Vec<Vanishing> = vanish.collect();
         rows.sort_by(|a, b| a.least.total_cmp(&b.least));
         if rows.is_empty() {
-            let row = self.smallest(&self.here, new);
-            rows.extend(row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten()));
+            let row = rests.then(|| self.resting(mech, old, new)).flatten();
+            rows.extend(row.or_else(|| self.smallest(&self.here, new)));
         }
         let told = (!rows.is_empty()).then_some(Loss::Rows(rows));
         let told = told.or_else(|| self.dependent(mech, old, new, None));
@@ -270,7 +270,7 @@ impl RowWatch {
         Some(Vanishing {
             near: between_states(old, new, (part - BEFORE).max(0.0)),
             rest: true,
-            reached: most / found.size,
+            reached: most / found.sizes[found.row],
             ..found
         })
     }
@@ -388,16 +388,26 @@ impl RowWatch {
         let mut small = rows.map(|((x, size), may)| *may && *x < (SMALL * size).powi(2));
         let row = small.position(|small| small)?;
         let least = matrix.length(row) / self.sizes[row];
-        Some(self.found(row, here.to_state(), here.t, [least; 2]))
+        Some(self.found(row, here.to_state(), (here.t, matrix), [least; 2]))
     }
 
-    /// A row that is least at `t`, a state near which is given: by these shares of what it is around, and of its size at a state of the
-    /// run.
-    fn found(&self, row: usize, near: State, t: f64, [least, reached]: [f64; 2]) -> Vanishing {
+    /// A row that is least at a time, with A there; a state near that is given. By these shares of what it is around, and of its size at a
+    /// state of the run.
+    fn found(
+        &self,
+        row: usize,
+        near: State,
+        (t, there): (f64, &Matrix),
+        [least, reached]: [f64; 2],
+    ) -> Vanishing {
         let measure = self.measure.as_ref();
+        let lost = |(c, size): (usize, &f64)| {
+            let with = self.may[c] && there.length(c) < DIP * size;
+            if with || c == row { *size } else { 0.0 }
+        };
         Vanishing {
             row,
-            size: self.sizes[row],
+            sizes: self.sizes.iter().enumerate().map(lost).collect(),
             scale: measure.map_or_else(Vec::new, |measure| measure.scale.clone()),
             largest: self.largest[row],
             near,
@@ -462,6 +472,10 @@ impl RowWatch {
         // In x times the time between both it changes by (change + gain) x + gain x².
         let fast = change + gain;
         let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
+        let small = |((x, size), may): ((&f64, &f64), &bool)| *may && *x < (SMALL * size).powi(2);
+        let mut rows = self.here.squares.iter().zip(&self.sizes).zip(&self.may);
+        // Near to vanishing they are looked at on each step.
+        let times = if rows.any(small) { 0.0 } else { times };
         self.due = t + (t - self.seen.t) * times.min(LONGEST);
         std::mem::swap(&mut self.past, &mut self.seen);
         std::mem::swap(&mut self.seen, &mut self.here);
@@ -496,7 +510,7 @@ impl RowWatch {
         let least = between.length(c) / ends;
         (least < DIP).then(|| {
             let near = between_states(old, new, (part - BEFORE).max(0.0));
-            self.found(c, near, state.t, [least, ends / self.sizes[c]])
+            self.found(c, near, (state.t, &between), [least, ends / self.sizes[c]])
         })
     }
 }

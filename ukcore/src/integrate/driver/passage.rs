@@ -63,9 +63,18 @@ const STEEP: f64 = 8.0;
 const PLANS: usize = 6;
 
 /// A position where nothing tells how the motion goes on is met within this share of the way to it from the start of the run; and the share
-/// of the way left that a step to it goes.
+/// of the way left that a step to it is to go, and goes at most: where it ends nearer it is told anew how far that is.
 const MET: f64 = 1e-4;
 const UP_TO: f64 = 0.9;
+const AT_MOST: f64 = 0.95;
+
+/// Where nothing told at a distance whether a motion meets a position, it does not turn there within this share of that.
+const DOUBTED: f64 = 1e-6;
+
+/// Of a motion that comes nearer to such a position than so many times its tolerance, or than this, as a significance, nothing tells
+/// whether it turns before it.
+const TELLING: f64 = 100.0;
+const NEAREST: f64 = 1e-7;
 
 /// So many steps of one size before a position are made by longer ones, which are to have the room to go over it as they would.
 pub(super) const BACK: usize = 32;
@@ -108,6 +117,8 @@ pub(super) struct Passage {
     /// The place from which the run has gone back, until it is there again; whether it has done so where it stands, and come elsewhere.
     pub(super) retreated: Option<Place>,
     pub(super) astray: bool,
+    /// A position ahead where nothing tells how the motion goes on, as was last told, and the time left to it when it was met first.
+    doubted: Option<(f64, f64)>,
     /// How often the step in hand has been planned anew.
     pub(super) plans: usize,
     /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
@@ -237,6 +248,11 @@ impl Driver<'_> {
         let Some([from, to]) = self.gap else {
             return;
         };
+        if let Some((t, _)) = passage.doubted
+            && course.ahead(t) > 0.0
+        {
+            course.limit(UP_TO * course.ahead(t));
+        }
         let Some(position) = &passage.ahead else {
             if passage.turns > 0.0 {
                 course.limit(SEEN / passage.turns);
@@ -443,6 +459,7 @@ impl Driver<'_> {
         match found {
             Some(found) => self.judge(found, trial, made),
             None => {
+                self.passage.doubted.take_if(|_| made);
                 let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
                 self.passage.ahead.take_if(behind);
                 Ok(())
@@ -463,11 +480,15 @@ impl Driver<'_> {
     fn judge(&mut self, found: Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
         self.passage.met = true;
         let found = self.as_known_best(found);
+        let found = self.doubt(found);
         let Some(gap) = self.gap else {
             self.passage.ahead = Some(found);
             return Err(Refusal::Unplanned);
         };
-        self.decide(&found, trial, made)?;
+        if self.decide(&found, trial, made)? {
+            self.passage.ahead = None;
+            return Ok(());
+        }
         let good = self.suits(&found, trial, gap);
         let (course, passage) = (&mut self.equations.course, &mut self.passage);
         // Stages of a step that is far too long tell nothing of the motion.
@@ -516,9 +537,30 @@ impl Driver<'_> {
         found
     }
 
-    /// Refuses a step where nothing tells how the motion goes on at the position `found`: nearer to it more can be told, if only when it is
-    /// met.
-    fn decide(&mut self, found: &Singular, trial: Trial, made: bool) -> Result<(), Refusal> {
+    /// The significance at a position above which it tells whether a motion turns before it.
+    fn telling(&self) -> f64 {
+        NEAREST.max(TELLING * self.settings.tolerance.relative)
+    }
+
+    /// The position `found`, not better known than it was from farther off.
+    fn doubt(&mut self, mut found: Singular) -> Singular {
+        let left = self.equations.course.ahead(found.t);
+        let least = self.telling();
+        let doubted = &mut self.passage.doubted;
+        let first = doubted.map(|(_, first)| first);
+        let near = found.significance <= least;
+        if first.is_some_and(|first| found.gap > 0.0 && (near || found.gap < DOUBTED * first)) {
+            found.gap = f64::NAN;
+        }
+        let first = first.or(Some(left).filter(|_| found.gap.is_nan()));
+        *doubted = first.filter(|_| left > 0.0).map(|first| (found.t, first));
+        found
+    }
+
+    /// Whether nothing tells how the motion goes on at the position `found`, and the step ends before it: nearer to it more can be told, if
+    /// only when it is met or that the motion turns before it. Refuses a step that does not end there, and one that is near already.
+    fn decide(&mut self, found: &Singular, trial: Trial, made: bool) -> Result<bool, Refusal> {
+        let least = self.telling();
         let (course, passage) = (&mut self.equations.course, &mut self.passage);
         let left = course.ahead(found.t);
         let undecided = found.gap.is_nan() && left > 0.0;
@@ -526,8 +568,13 @@ impl Driver<'_> {
         let known = passage.ahead.is_some();
         let close = known && found.gap == 0.0 && found.rate * left < CLOSE;
         let way = course.now.s.abs() + left;
+        let telling = found.significance > least;
+        let far = undecided && left > MET * way;
+        if made && far && telling && trial.h.abs() <= AT_MOST * left {
+            return Ok(true);
+        }
         let nearer = match made {
-            true => (left > MET * way).then_some(course.along * UP_TO * left),
+            true => far.then_some(course.along * UP_TO * left),
             // So may one of a step that is far too long.
             false => (!known).then_some(0.5 * trial.h),
         };
@@ -543,7 +590,7 @@ impl Driver<'_> {
             let here = Sample::of(course.now.t, self.scheme.start());
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Whether a step with this gap between its stages is planned for a position.

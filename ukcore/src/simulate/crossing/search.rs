@@ -75,18 +75,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// One that stands at `near`, the equations factored there; a row that is known to vanish is compared with what it has been.
+    /// One that stands at `near`, the equations factored there; rows that are known to vanish are compared with what they have been.
     pub(super) fn at(
         mech: &'a Prepared,
         near: &State,
         vanishing: Option<&Vanishing>,
     ) -> Option<Self> {
         let mut search = Search::new(mech, near);
-        if let Some(Vanishing {
-            row, size, scale, ..
-        }) = vanishing
-        {
-            search.dense.sizes[*row] = *size;
+        if let Some(Vanishing { sizes, scale, .. }) = vanishing {
+            search.dense.sizes.clone_from(sizes);
             search.dense.measure.keep(scale);
         }
         search.factor(&near.v)?;

@@ -1,0 +1,168 @@
+//! Rows of A that vanish together with copies of theirs, as over the apex of a cone that is told twice, and motions that turn just before.
+
+use ukcore::{Error, Method, Prepared, Simulation, State};
+
+ukcore::multibody! {
+    /// A point on a cone.
+    Cone {
+        params { g = 0.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        potential { g * z }
+        holonomic { cone: sq(x) + sq(y) = sq(z) }
+    }
+}
+
+ukcore::multibody! {
+    /// The same, told in other units beside it.
+    Scaled {
+        params { g = 0.0, k = 2.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        potential { g * z }
+        holonomic { cone: sq(x) + sq(y) = sq(z), copy: k * (sq(x) + sq(y)) = k * sq(z) }
+    }
+}
+
+ukcore::multibody! {
+    /// The same, told by a function of it beside it, and a coordinate that is tied twice.
+    Other {
+        params { g = 0.0 }
+        coords { x, y, z, w }
+        mass { x: 1.0, y: 1.0, z: 1.0, w: 1.0 }
+        potential { g * z }
+        holonomic {
+            copy: exp(sq(x) + sq(y) - sq(z)) = 1.0,
+            tie: w = 3.0 * y,
+            cone: sq(x) + sq(y) = sq(z),
+            knot: exp(w) = exp(3.0 * y),
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A bead on a lemniscate that is told twice.
+    Oval {
+        params { k = 3.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        holonomic { oval: sq(sq(x) + sq(y)) = sq(x) - sq(y), copy: k * sq(sq(x) + sq(y)) = k * (sq(x) - sq(y)) }
+    }
+}
+
+const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
+
+/// Thrown up along a line of a cone from (−from, 0, −from) with x = z = −from + u t − ½ (g/2) t², a point gets to the apex and further
+/// for `top` > 0, and turns before it by that share of `from` for `top` < 0.
+fn thrown(
+    mechanism: impl Into<Prepared>,
+    [from, g, top]: [f64; 3],
+    (method, tolerance): (Method, f64),
+) -> Result<(), String> {
+    let mechanism = mechanism.into();
+    let u = f64::sqrt(g * (from + from * top));
+    let mut start = State {
+        t: 0.0,
+        q: vec![-from, 0.0, -from],
+        v: vec![u, 0.0, u],
+    };
+    start.q.resize(mechanism.spec().n(), 0.0);
+    start.v.resize(mechanism.spec().n(), 0.0);
+    let simulation = Simulation::new(mechanism).start(start).method(method);
+    let run = (simulation
+        .tolerance(tolerance)
+        .max_steps(10_000)
+        .every(0.013))
+    .until(4.0 * u / g);
+    let way = |t: f64| -from + u * t - 0.25 * g * t * t;
+    match run {
+        Ok(run) if top < 0.0 => {
+            let off = run.samples().map(|s| (s.q[0] - way(s.t)).abs());
+            let off = off.fold(0.0, f64::max);
+            let bound = 1e2 * tolerance + 1e-8;
+            (off < bound)
+                .then_some(())
+                .ok_or_else(|| format!("{off:e} off"))
+        }
+        Ok(_) => Err("goes on".to_owned()),
+        Err(failure) if top < 0.0 => Err(failure.to_string()),
+        Err(failure) => {
+            let apex = (u - (u * u - g * from).sqrt()) * 2.0 / g;
+            let end = failure.trajectory.last().expect("it has begun").t;
+            let Error::At { source, .. } = &failure.error else {
+                return Err(failure.to_string());
+            };
+            let Error::Singular { constraints } = &**source else {
+                return Err(failure.to_string());
+            };
+            let named = constraints.iter().any(|c| c == "cone" || c == "copy");
+            (named && end <= apex)
+                .then_some(())
+                .ok_or_else(|| failure.to_string())
+        }
+    }
+}
+
+fn each(tops: &[f64], tolerances: &[f64]) {
+    for method in METHODS {
+        for &tolerance in tolerances {
+            for [from, g] in [[0.5, 9.81], [1.0, 9.81], [0.55, 5.0], [1.0, 0.7]] {
+                for &top in tops {
+                    let how = (method, tolerance);
+                    let one = thrown(Cone { g }, [from, g, top], how);
+                    let scaled = Scaled {
+                        g,
+                        ..Scaled::default()
+                    };
+                    let scaled = thrown(scaled, [from, g, top], how);
+                    let other = thrown(Other { g }, [from, g, top], how);
+                    for (what, told) in [("one", one), ("scaled", scaled), ("other", other)] {
+                        let place = format!("{what}, {method}, {tolerance:e}: {g} from {from}");
+                        told.unwrap_or_else(|told| panic!("{place} to {top:e}: {told}"));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_apex_that_is_told_twice_ends_motions_over_it() {
+    each(&[1e-6, 1e-3, 0.03, 0.25, 2.0], &[1e-4, 1e-7, 1e-10]);
+}
+
+#[test]
+fn motions_that_turn_just_before_an_apex_go_on() {
+    each(&[-0.5, -0.1, -0.03], &[1e-4, 1e-7, 1e-10]);
+    each(&[-1e-3], &[1e-6, 1e-7, 1e-10]);
+    each(&[-1e-4, -1e-5], &[1e-9, 1e-11]);
+}
+
+/// What a motion comes to rest in at the apex, nothing tells.
+#[test]
+fn motions_that_rest_in_an_apex_that_is_told_twice_end() {
+    each(&[0.0], &[1e-4, 1e-7, 1e-10]);
+}
+
+#[test]
+fn a_node_that_is_told_twice_is_passed() {
+    let length = 5.244_115_108_584_24;
+    for method in METHODS {
+        for tolerance in [1e-4, 1e-7, 1e-10] {
+            for speed in [2.1, 4.7] {
+                let start = State {
+                    t: 0.0,
+                    q: vec![1.0, 0.0],
+                    v: vec![0.0, speed],
+                };
+                let simulation = Simulation::new(Oval::default()).start(start).method(method);
+                let run = simulation.tolerance(tolerance).until(1.5 * length / speed);
+                let place = format!("{method}, {tolerance:e}, {speed}");
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let end = run.last().expect("an end");
+                let off = (end.q[0] + 1.0).abs().max(end.q[1].abs());
+                assert!(off < 1e3 * tolerance + 1e-7, "{place}: {off:e}");
+            }
+        }
+    }
+}
