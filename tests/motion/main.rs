@@ -34,6 +34,7 @@ mod stability;
 mod stiff;
 mod switches;
 mod tied;
+mod timed;
 mod tree;
 mod turned;
 mod two_loops;

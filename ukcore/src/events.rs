@@ -250,6 +250,15 @@ impl Watch {
         Ok(true)
     }
 
+    /// The events that are crossed between the end of the last step and a state just `beyond` it, and their directions.
+    pub(crate) fn up_to(&mut self, beyond: Sample<'_>) -> Result<Vec<(&Event, Direction)>, Error> {
+        let after = values(&mut self.events, beyond)?;
+        let pairs = self.events.iter().zip(self.accepted.iter().zip(after));
+        let met = pairs
+            .filter_map(|(event, (before, after))| Some((event, event.crosses(*before, after)?)));
+        Ok(met.collect())
+    }
+
     /// The step is accepted: the next one begins at its end.
     pub(crate) fn accept(&mut self) {
         std::mem::swap(&mut self.accepted, &mut self.current);

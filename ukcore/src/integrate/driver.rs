@@ -65,6 +65,8 @@ struct Driver<'p> {
     shown: Option<(f64, Vec<f64>)>,
     /// The switches that have taken other branches where the run stands.
     turned: Vec<usize>,
+    /// Those at whose zeros it stays.
+    rests: Vec<usize>,
     /// How often the run has gone back from one place in a row, each time in other branches.
     relaunches: usize,
     /// Whether it has been asked if the start is to blame for first steps that come to nothing.
@@ -145,6 +147,7 @@ impl<'p> Driver<'p> {
             passage: Passage::default(),
             shown: None,
             turned: Vec::new(),
+            rests: Vec::new(),
             relaunches: 0,
             launched: false,
             reached: None,
@@ -163,7 +166,10 @@ impl<'p> Driver<'p> {
 
     /// Makes all steps. Returns the state at the end, too.
     fn travel(mut self) -> (Report, Vec<f64>) {
-        let outcome = self.run();
+        let outcome = match self.run() {
+            Err(_) if self.ends_at_rest() => Ok(Outcome::Stopped),
+            outcome => outcome,
+        };
         let (scheme, course) = (self.scheme, &mut self.equations.course);
         // Of what lies before states that are shown already nobody has been told.
         let shown = self.shown.filter(|(t, _)| course.ahead(*t) > 0.0);

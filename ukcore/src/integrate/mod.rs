@@ -169,6 +169,11 @@ pub(crate) trait Problem {
     fn stuck(&mut self, _at: Sample<'_>) -> Option<Error> {
         None
     }
+    /// The motion stays where the last step ended, at the zeros of switches that drive it back from both sides; `beyond` is a state just
+    /// behind these. Whether the run ends there as it was to end.
+    fn rests(&mut self, _beyond: Sample<'_>) -> Result<Next, Error> {
+        Ok(Next::Continue)
+    }
     /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes
     /// nearer.
     fn jump(&mut self, _at: Sample<'_>, _t_old: f64) -> Option<Error> {
@@ -239,6 +244,8 @@ pub(crate) struct Singular {
     pub(crate) t: f64,
     /// How long it takes to turn there; 0 where it passes, infinite where it does not get there, NaN where rounding does not tell.
     pub(crate) gap: f64,
+    /// Whether nothing tells how a motion goes on that meets it, since all beside that one go other ways.
+    pub(crate) isolated: bool,
     /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
     pub(crate) significance: f64,
     pub(crate) rate: f64,
@@ -262,6 +269,7 @@ impl Singular {
         Singular {
             t,
             gap: missed.map_or(f64::NAN, |share| share * way),
+            isolated: false,
             significance,
             rate: way.recip(),
             rounding: 1.0,
@@ -274,6 +282,7 @@ impl Singular {
         Singular {
             t,
             gap: f64::INFINITY,
+            isolated: false,
             significance,
             rate: 0.0,
             rounding: 1.0,

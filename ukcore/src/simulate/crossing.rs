@@ -218,6 +218,7 @@ pub(super) fn just_ahead(mech: &Prepared, here: &State, within: f64) -> Option<S
     Some(Singular {
         t,
         gap: 0.0,
+        isolated: false,
         significance: *before,
         rate: before / (t - back.t).abs(),
         rounding: 1.0,

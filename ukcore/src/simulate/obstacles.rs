@@ -288,7 +288,7 @@ fn vanishing_row(mech: &Prepared, mut found: Vanishing, old: Sample<'_>) -> Opti
         if let Some(position) = crossing::find(mech, near, Some(&found)) {
             // A motion that had met it would have the row reversed.
             let behind = (position.t - near.t) * (near.t - old.t) < 0.0;
-            if behind && reversed.is_none() && position.gap.is_nan() {
+            if behind && reversed.is_none() && position.isolated {
                 return None;
             }
             return Some(Singular {

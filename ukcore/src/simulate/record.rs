@@ -90,6 +90,34 @@ impl<'s> Recorder<'s> {
         recorded
     }
 
+    /// Takes the events whose zeros lie between the state where the run stands and one just `beyond`, into which it does not get. Whether
+    /// one of them ends the run.
+    pub(super) fn rests(&mut self, beyond: Sample<'_>) -> Result<bool, Error> {
+        let Some(State { t, q, v }) = self.trajectory.end.clone() else {
+            return Ok(false);
+        };
+        let met = self.watch.up_to(beyond)?;
+        let mut ends = false;
+        for (event, direction) in met {
+            let (name, terminal) = (event.name.clone(), event.terminal);
+            let (q, v) = (q.clone(), v.clone());
+            self.trajectory.events.push(EventHit {
+                name,
+                t,
+                q,
+                v,
+                direction,
+            });
+            ends |= terminal;
+            if terminal {
+                self.trajectory.ending = Ending::Event;
+                break;
+            }
+        }
+        self.hand_over();
+        Ok(ends)
+    }
+
     /// Takes from a step what is wanted of it, and returns the error of what is integrated along it; a failure leaves behind what was taken
     /// before.
     fn record(&mut self, step: &Step<'_>) -> Result<f64, Error> {

@@ -187,6 +187,13 @@ impl Problem for Run<'_> {
         obstacles::stuck(self.solver.mechanism(), at)
     }
 
+    fn rests(&mut self, beyond: Sample<'_>) -> Result<Next, Error> {
+        Ok(match self.recorder.rests(beyond)? {
+            true => Next::Stop,
+            false => Next::Continue,
+        })
+    }
+
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
         obstacles::jump(&mut self.solver, at, t_old)
     }
@@ -217,11 +224,13 @@ impl Problem for Run<'_> {
 
     fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {
         let mechanism = self.solver.mechanism();
-        let found = match new {
+        let lost = match new {
             Some(new) => self.rows.vanishing(mechanism, old, new),
             None => self.rows.small(mechanism, old),
-        }?;
-        obstacles::vanishing(mechanism, found, old)
+        };
+        let found = lost.and_then(|lost| obstacles::vanishing(mechanism, lost, old));
+        self.rows.wary = found.as_ref().is_some_and(|found| found.isolated);
+        found
     }
 
     fn vanishing_before(&self, old: Sample<'_>, beyond: Sample<'_>) -> Option<Singular> {

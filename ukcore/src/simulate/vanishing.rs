@@ -146,6 +146,8 @@ pub(super) struct RowWatch {
     turns: f64,
     /// When to look again.
     pub(super) due: f64,
+    /// Whether what was seen last is a place ahead that nothing tells how to go on from.
+    pub(super) wary: bool,
 }
 
 impl RowWatch {
@@ -472,10 +474,8 @@ impl RowWatch {
         // In x times the time between both it changes by (change + gain) x + gain x².
         let fast = change + gain;
         let times = 2.0 * CHANGE / (fast + (fast * fast + 4.0 * gain * CHANGE).sqrt());
-        let small = |((x, size), may): ((&f64, &f64), &bool)| *may && *x < (SMALL * size).powi(2);
-        let mut rows = self.here.squares.iter().zip(&self.sizes).zip(&self.may);
-        // Near to vanishing they are looked at on each step.
-        let times = if rows.any(small) { 0.0 } else { times };
+        // Near to a place where nothing tells how the motion goes on they are looked at on each step.
+        let times = if self.wary { 0.0 } else { times };
         self.due = t + (t - self.seen.t) * times.min(LONGEST);
         std::mem::swap(&mut self.past, &mut self.seen);
         std::mem::swap(&mut self.seen, &mut self.here);

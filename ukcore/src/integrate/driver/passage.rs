@@ -552,7 +552,7 @@ impl Driver<'_> {
         if first.is_some_and(|first| found.gap > 0.0 && (near || found.gap < DOUBTED * first)) {
             found.gap = f64::NAN;
         }
-        let first = first.or(Some(left).filter(|_| found.gap.is_nan()));
+        let first = first.or(Some(left).filter(|_| found.isolated));
         *doubted = first.filter(|_| left > 0.0).map(|first| (found.t, first));
         found
     }
@@ -568,7 +568,7 @@ impl Driver<'_> {
         let known = passage.ahead.is_some();
         let close = known && found.gap == 0.0 && found.rate * left < CLOSE;
         let way = course.now.s.abs() + left;
-        let telling = found.significance > least;
+        let telling = passage.doubted.is_some() && found.significance > least;
         let far = undecided && left > MET * way;
         if made && far && telling && trial.h.abs() <= AT_MOST * left {
             return Ok(true);

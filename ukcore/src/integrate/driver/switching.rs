@@ -2,11 +2,11 @@
 
 use super::{Driver, Refusal};
 use crate::error::Error;
-use crate::integrate::PROJECTION_LIMIT;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::sums::projection_norm;
 use crate::integrate::switches::{Leaving, Seen, Stuck};
+use crate::integrate::{Next, PROJECTION_LIMIT};
 use crate::mechanism::Branch;
 use crate::scan::axpy;
 
@@ -16,6 +16,9 @@ const FREE: f64 = 1e-4;
 /// Constraints that ask for other velocities beside the zero of a switch than in the branch before, and by no more than this share of that
 /// at the zero, and than any step may be projected by, do so for being beside it.
 const CONTINUOUS: f64 = 0.1;
+
+/// How often the way over a zero is doubled where rounding hides it.
+const BEHIND: usize = 8;
 
 /// A step onto the zero of a switch.
 pub(super) struct Goal {
@@ -223,6 +226,55 @@ impl Driver<'_> {
     }
 
     fn stuck(&mut self, Stuck(switches): Stuck) -> Error {
+        self.rests.clone_from(&switches);
         self.equations.course.stuck(&switches)
+    }
+
+    /// Whether a motion that stays at the zeros of switches has met there what its run was to end with. A step onto a zero ends beside it
+    /// by its error: that counts as met which has its own zero no farther behind than a step over this one would end.
+    pub(super) fn ends_at_rest(&mut self) -> bool {
+        let switches = std::mem::take(&mut self.rests);
+        if switches.is_empty() || self.shown.is_some() {
+            return false;
+        }
+        let (now, y) = (self.equations.course.now, self.scheme.start().to_vec());
+        let (n, at) = (y.len() / 2, Sample::of(now.t, &y));
+        let mut acceleration = vec![0.0; n];
+        let mut values = vec![0.0; self.equations.problem.switches()];
+        let (mut rates, mut behind) = (values.clone(), values.clone());
+        let direction = self.equations.course.along;
+        for _ in 0..2 {
+            let problem = &mut *self.equations.problem;
+            if problem.acceleration(at, &mut acceleration).is_err() {
+                return false;
+            }
+            problem.switching(at, &mut values);
+            problem.switching_rate(at, &acceleration, &mut rates);
+            // In the branches behind them it goes back.
+            let back = |k: &usize| values[*k] * rates[*k] * direction > 0.0;
+            if !switches.iter().any(back) {
+                break;
+            }
+            self.equations.flip(&switches);
+        }
+        let left = switches.iter().map(|k| (values[*k] / rates[*k]).abs());
+        let mut way = left.fold(f64::EPSILON * now.t.abs(), f64::max);
+        for _ in 0..BEHIND {
+            let along = direction * way;
+            let mut beyond = y.clone();
+            axpy(along, &y[n..], &mut beyond[..n]);
+            axpy(along, &acceleration, &mut beyond[n..]);
+            let beyond = Sample::of(now.t + along, &beyond);
+            let problem = &mut *self.equations.problem;
+            problem.switching(beyond, &mut behind);
+            if switches
+                .iter()
+                .all(|k| behind[*k] * rates[*k] * along > 0.0)
+            {
+                return matches!(problem.rests(beyond), Ok(Next::Stop));
+            }
+            way *= 2.0;
+        }
+        false
     }
 }

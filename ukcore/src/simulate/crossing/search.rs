@@ -345,11 +345,15 @@ impl<'a> Search<'a> {
         if !agree {
             return None;
         }
-        let doubt = doubt || open == 0.0 && self.is_isolated();
-        Some(Some(self.met(match doubt {
+        let isolated = !doubt && open == 0.0 && self.is_isolated();
+        let gap = match doubt || isolated {
             true => f64::NAN,
             false => (2.0 * open / largest).sqrt(),
-        })))
+        };
+        Some(Some(Singular {
+            isolated,
+            ..self.met(gap)
+        }))
     }
 
     /// The position where the search has come to, with this gap.
@@ -358,6 +362,7 @@ impl<'a> Search<'a> {
         Singular {
             t: self.t,
             gap,
+            isolated: false,
             significance: 0.0,
             rate: 0.0,
             rounding: 1.0,
