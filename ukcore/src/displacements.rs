@@ -149,12 +149,20 @@ pub(crate) fn complement(
 /// Rows of constraints, each of length 1, that keep less beside the others are near a singular position: whatever they do is beside it.
 const SINGULAR: f64 = 1e-6;
 
+/// Whether no combination of rows vanishes on the straight way from A₀ to A₁, as far as their products A₁ W A₀ᵀ tell, with any positive W.
+///
+/// If the symmetric part S of these is positive definite, then for each combination η of rows
+/// (A₀ᵀη)·W((1 − τ) A₀ + τ A₁)ᵀη = (1 − τ)(A₀ᵀη)·W A₀ᵀη + τ ηᵀSη > 0: on that way none vanishes. And where one does vanish on a smooth way
+/// it is reversed behind that place, and S is not definite. So this tells a way that has gone over a singular position from one that has
+/// turned beside it, however far both ends are from the place.
+pub(crate) fn none_vanishes(products: &DMatrix<f64>) -> bool {
+    (products + products.transpose()).cholesky().is_some()
+}
+
 /// Whether a combination of rows is reversed on the way from the rows `before` to those `after`: then the way goes over a singular
 /// position, or beside one in a step so long that it may have come to what is behind it.
 ///
-/// Let S be the symmetric part of A₀ W A₁ᵀ, with the rows at both ends and any positive W. If S is positive definite, then no combination
-/// vanishes on the straight way from A₀ to A₁; and one that goes through zero is reversed behind that place, and S is not definite. Rows
-/// that follow from others before, or all but do, do not count. W is such that no column hides others, whatever their units.
+/// Rows that follow from others before, or all but do, do not count. No column [hides](none_vanishes) others, whatever their units.
 pub(crate) fn reversed(mut before: DMatrix<f64>, mut after: DMatrix<f64>) -> bool {
     for c in 0..before.nrows() {
         let length = before.row(c).amax();
@@ -177,8 +185,7 @@ pub(crate) fn reversed(mut before: DMatrix<f64>, mut after: DMatrix<f64>) -> boo
     decomposed.p().permute_rows(&mut order);
     let count = pivots.iter().filter(|x| **x > SINGULAR).count();
     let [before, after] = [before, after].map(|rows| rows.select_rows(order.iter().take(count)));
-    let products = before * after.transpose();
-    (&products + products.transpose()).cholesky().is_none()
+    !none_vanishes(&(before * after.transpose()))
 }
 
 /// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps

@@ -11,7 +11,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::displacements::{INDEPENDENT, measure, pivoted};
+use crate::displacements::{INDEPENDENT, measure, none_vanishes, pivoted};
 use crate::mechanism::{Evaluated, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::spectrum::eigenvalues;
@@ -197,13 +197,12 @@ impl Rows {
 
     /// Whether a combination of the independent rows vanishes on the straight way from these to what they are `there`, or turns by more
     /// than a right angle. With these as they are there, in combinations that are orthonormal here, as B, one with (1 − τ) I + τ B
-    /// singular is an eigenvector of B with a negative eigenvalue. There is none where the symmetric part of B is positive definite,
-    /// which is found sooner.
+    /// singular is an eigenvector of B with a negative eigenvalue. That there is none is found sooner by the symmetric part of B.
     fn reversed(&self, there: &Rows) -> bool {
         let rows = there.matrix.select_rows(&self.order[..self.rank]);
         let mut rows = rows * self.turned.rows(0, self.rank).transpose();
         self.r.tr_solve_upper_triangular_mut(&mut rows);
-        (&rows + rows.transpose()).cholesky().is_none()
+        !none_vanishes(&rows)
             && eigenvalues(&rows).is_none_or(|all| all.iter().any(|x| x.re <= 0.0))
     }
 

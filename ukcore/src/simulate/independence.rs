@@ -1,10 +1,7 @@
 //! Whether rows of A that are independent at one state stay so on the way to another.
 //!
-//! Let S be the symmetric part of A₀ W A₁ᵀ, with A at both states and any positive W. If S is positive definite, then for each combination
-//! η of rows (A₀ᵀη)·W((1 − τ) A₀ + τ A₁)ᵀη = (1 − τ)|A₀ᵀη|² + τ ηᵀSη > 0: on the straight way from A₀ to A₁ no combination vanishes. And
-//! where one does vanish on a smooth way it is reversed behind that place, and S is not definite. So this tells a motion that has gone over
-//! a singular position from one that has turned beside it, however far both states are from the place; a Cholesky factorisation of S
-//! decides.
+//! A Cholesky factorisation of the symmetric part S of A₀ W A₁ᵀ, with A at both states and any positive W, tells: by what
+//! [`none_vanishes`](crate::displacements::none_vanishes) says. Here it is sparse.
 
 use std::collections::BTreeSet;
 
