@@ -1,7 +1,7 @@
 //! Ensembles against runs one by one, and against themselves in other company.
 
 use models::{Model, Pendulum, UChain, Visitor, visit};
-use tests::{Random, assert_all_close, largest};
+use tests::{Random, assert_all_close, at, largest};
 use ukcore::simulate::{Member, Switching};
 use ukcore::{Ensemble, Error, Simulation, State};
 
@@ -146,11 +146,7 @@ ukcore::multibody! {
 
 #[test]
 fn who_fails_ends_alone() {
-    let start = State {
-        t: 0.0,
-        q: vec![0.0, 0.0],
-        v: vec![1.0, 0.0],
-    };
+    let start = at(&[0.0, 0.0], &[1.0, 0.0]);
     let mut members: Vec<_> = (0..10)
         .map(|_| (Ending::default(), start.clone()))
         .collect();

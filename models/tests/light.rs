@@ -136,11 +136,7 @@ fn heavy_loads_at_the_end_of_an_arm() {
         for k in 0..200 {
             let angle = |i: i32| (f64::from(k) * 0.37 + f64::from(i) * 1.9).sin() * 3.0;
             let q: Vec<f64> = (0..4).map(angle).collect();
-            let state = State {
-                t: 0.0,
-                v: q.iter().map(|x| 0.3 * x).collect(),
-                q,
-            };
+            let state = tests::at(&q, &q.iter().map(|x| 0.3 * x).collect::<Vec<_>>());
             let exact = precise::accelerations(&mechanism, 0.0, &state.q, &state.v);
             let exact = digits(&exact.expect("definite"));
             both.compare(&mechanism, &state, &exact);

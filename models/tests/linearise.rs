@@ -1,7 +1,7 @@
 //! Exact derivatives of the accelerations against differences of them, and against closed forms.
 
 use models::{Model, Pendulum, Visitor, visit};
-use tests::{Random, assert_all_close, largest};
+use tests::{Random, assert_all_close, at, largest};
 use ukcore::manifold::Projector;
 use ukcore::solver::SolverOptions;
 use ukcore::{Error, Linearisation, Mechanism, Solver, State};
@@ -155,11 +155,7 @@ fn the_pendulum_in_closed_form() {
         g: 9.7,
     };
     let (x, y, vx, vy) = (0.6, -0.5, 1.1, 0.3);
-    let state = State {
-        t: 0.0,
-        q: vec![x, y],
-        v: vec![vx, vy],
-    };
+    let state = at(&[x, y], &[vx, vy]);
     let found = Linearisation::at(&mechanism, &state).unwrap();
     let square = x * x + y * y;
     let s = (vx * vx + vy * vy - 9.7 * y) / square;

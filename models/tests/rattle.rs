@@ -4,7 +4,7 @@ use models::{
     DoublePendulum, DoubleScottRussell, FishRobot, KnifeEdge, MasslessSpring, Model, Pendulum,
     RigidBody, SpringPendulum, StartOptions, UChain,
 };
-use tests::largest;
+use tests::{at_rest, largest};
 use ukcore::manifold::Stabilisation;
 use ukcore::solver::Baumgarte;
 use ukcore::{Error, Method, Simulation, State, Trajectory};
@@ -185,11 +185,7 @@ fn steps_with_which_the_energy_runs_away_are_an_error() {
     }
     // A chain at rest in equilibrium exchanges no energy at all.
     let chain = UChain::default();
-    let hanging = State {
-        t: 0.0,
-        q: hanging(),
-        v: vec![0.0; 34],
-    };
+    let hanging = at_rest(&hanging());
     let run = run(chain, hanging, 0.01, 1.0, 0.1);
     assert_eq!(run.work().steps, 100);
 }

@@ -1,9 +1,9 @@
 //! Friction in joints and contacts of bodies, as moments and forces on them that their own reactions load: closed forms, and the same
 //! mechanisms written in coordinates.
 
-use tests::{assert_all_close, assert_close};
+use tests::{assert_all_close, assert_close, at};
 use ukcore::solver::SolverOptions;
-use ukcore::{Method, Simulation, Solver, State};
+use ukcore::{Method, Simulation, Solver};
 
 ukcore::multibody! {
     /// A rotor in a bearing that rubs, its axis `tilt` off the vertical.
@@ -92,11 +92,7 @@ fn what_acts_on_bodies_is_what_it_does_in_their_coordinates() {
     let mut bodies = Solver::new(Bodies::default(), SolverOptions::default());
     let mut coordinates = Solver::new(Coordinates::default(), SolverOptions::default());
     for _ in 0..50 {
-        let state = State {
-            t: 0.0,
-            q: states.vector(6),
-            v: states.vector(6),
-        };
+        let state = at(&states.vector(6), &states.vector(6));
         let [first, second] = [&mut bodies, &mut coordinates].map(|solver| {
             let solution = solver.solve(state.t, &state.q, &state.v);
             let solution = solution.expect("a solution");

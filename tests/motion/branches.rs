@@ -1,7 +1,7 @@
 //! The ways to put a mechanism together near a guess: the nearest, what moved, and others that are as near.
 
-use tests::FourBar;
 use tests::assert_close;
+use tests::{FourBar, at_rest};
 use ukcore::model::StartOptions;
 use ukcore::{Error, Mechanism, State, assemble, assemble_with_alternatives, branches};
 
@@ -16,14 +16,6 @@ ukcore::multibody! {
     }
 }
 
-fn guess(x: f64, y: f64) -> State {
-    State {
-        t: 0.0,
-        q: vec![x, y],
-        v: vec![0.0; 2],
-    }
-}
-
 fn linkage_guess() -> State {
     State::guess::<FourBar>(&[("bar[0].angle", 1.0), ("bar[1].angle", 0.3)]).unwrap()
 }
@@ -33,13 +25,13 @@ fn the_nearest_is_taken_and_as_near_ones_are_told() {
     let elbow = Elbow::default();
     let height = 0.75_f64.sqrt();
     for (y, others) in [(0.5, 0), (-0.5, 0), (0.1, 1), (-0.1, 1), (1e-9, 1)] {
-        let found = branches(&elbow, &guess(0.5, y), &[]).unwrap();
+        let found = branches(&elbow, &at_rest(&[0.5, y]), &[]).unwrap();
         assert_eq!(
-            assemble_with_alternatives(&elbow, &guess(0.5, y), &[]),
+            assemble_with_alternatives(&elbow, &at_rest(&[0.5, y]), &[]),
             Ok(found.clone())
         );
         assert_eq!(
-            assemble(&elbow, &guess(0.5, y), &[]),
+            assemble(&elbow, &at_rest(&[0.5, y]), &[]),
             Ok(found.state.clone())
         );
         assert_close("x", found.state.q[0], 0.5, 1e-14);
@@ -52,7 +44,7 @@ fn the_nearest_is_taken_and_as_near_ones_are_told() {
         assert_eq!(found.moved[0].0, "y");
         assert_close("moved", found.moved[0].1, found.state.q[1] - y, 1e-14);
     }
-    let exact = branches(&elbow, &guess(0.5, height), &[]).unwrap();
+    let exact = branches(&elbow, &at_rest(&[0.5, height]), &[]).unwrap();
     assert_eq!((exact.moved, exact.alternatives), (Vec::new(), Vec::new()));
 }
 

@@ -114,11 +114,7 @@ fn a_cell_of_points_starts_in_its_flat_position() {
         let (name, sin) = (cell.spec().name, (1.0 - cos * cos).sqrt());
         let along = |length: f64| [length * cos, length * sin];
         let across = |length: f64| [-length * rate * sin, length * rate * cos];
-        let start = State {
-            t: 0.0,
-            q: at.map(along).concat(),
-            v: turning.map(across).concat(),
-        };
+        let start = tests::at(&at.map(along).concat(), &turning.map(across).concat());
         for (method, tolerance) in [
             (Method::Dop853, 1e-6),
             (Method::Dop853, 1e-9),

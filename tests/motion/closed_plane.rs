@@ -1,6 +1,6 @@
 //! Loops of a plane in space: rows of the joint that closes them hold wherever the bodies can be, and are no constraints.
 
-use tests::{assert_all_close, assert_close};
+use tests::{assert_all_close, assert_close, at_rest};
 use ukcore::{Mechanism, Prepared, Simulation, State, assemble};
 
 /// A four-bar linkage of bodies in space whose axes have the direction `$axis`, closed by a joint some rows of which always hold; with bars
@@ -89,11 +89,7 @@ ukcore::multibody! {
 
 #[test]
 fn what_engages_late_is_no_row_that_always_holds() {
-    let start = State {
-        t: 0.0,
-        q: vec![0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0],
-        v: vec![0.0; 4],
-    };
+    let start = at_rest(&[0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0]);
     let start = assemble(Clutch::default(), &start, &[]).expect("a start");
     let run = Simulation::new(Clutch::default())
         .start(start)

@@ -1,5 +1,6 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
+use tests::{at, at_rest};
 use ukcore::simulate::{Failure, Switching};
 use ukcore::{Error, Method, Simulation, State, lost_reactions};
 
@@ -68,11 +69,7 @@ fn contradiction(error: &Error) -> ([&str; 2], f64) {
 #[test]
 fn constraints_that_come_apart_in_time_are_both_named_there() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
-        let start = State {
-            t: 0.0,
-            q: vec![0.0; 3],
-            v: vec![0.5, 0.5, 0.0],
-        };
+        let start = at(&[0.0; 3], &[0.5, 0.5, 0.0]);
         let run = Simulation::new(Diverging::default())
             .method(method)
             .start(start);
@@ -89,11 +86,7 @@ fn constraints_that_come_apart_in_time_are_both_named_there() {
 #[test]
 fn a_contradiction_that_begins_within_a_run_is_found_where_it_begins() {
     for (linear, square, cube) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)] {
-        let start = State {
-            t: 0.0,
-            q: vec![0.0; 2],
-            v: vec![2.0 / 3.0, 1.0 / 3.0],
-        };
+        let start = at(&[0.0; 2], &[2.0 / 3.0, 1.0 / 3.0]);
         let parting = Parting {
             linear,
             square,
@@ -132,11 +125,7 @@ fn friction_that_brings_to_rest_is_named_with_the_remedy() {
                 slope,
                 ..Block::default()
             };
-            let start = State {
-                t: 0.0,
-                q: vec![0.0; 2],
-                v: vec![v, 0.0],
-            };
+            let start = at(&[0.0; 2], &[v, 0.0]);
             let failure = Simulation::new(block)
                 .tolerance(tolerance)
                 .start(start)
@@ -179,11 +168,7 @@ fn a_motion_that_ends_in_finite_time_ends_there_and_names_its_acceleration() {
             let by_push = (0.0, 1.0, short.recip(), quarter * short);
             for (pull, push, size, end) in [by_pull, by_push] {
                 for sign in [1.0, -1.0] {
-                    let start = State {
-                        t: 0.0,
-                        q: vec![1.0, size],
-                        v: vec![0.0; 2],
-                    };
+                    let start = at_rest(&[1.0, size]);
                     let run = Simulation::new(Singular { pull, push }).start(start);
                     let run = run.method(method).max_steps(20_000);
                     let failure = run.until(sign * 10.0).unwrap_err();
@@ -310,11 +295,7 @@ fn a_motion_too_fast_for_its_run_is_given_up_before_all_steps_are_used_up() {
     for sign in [1.0, -1.0] {
         let run = |turns: f64, max_steps: usize| {
             let radius = 1e-8_f64;
-            let start = State {
-                t: 0.0,
-                q: vec![radius, 0.0],
-                v: vec![0.0, radius.sqrt().recip()],
-            };
+            let start = at(&[radius, 0.0], &[0.0, radius.sqrt().recip()]);
             let run = Simulation::new(Orbit::default()).start(start).at(vec![]);
             let period = std::f64::consts::TAU * radius.powf(1.5);
             run.max_steps(max_steps).until(sign * turns * period)
@@ -339,11 +320,7 @@ fn a_motion_too_fast_for_its_run_is_given_up_before_all_steps_are_used_up() {
 #[test]
 fn steps_kept_short_on_purpose_do_not_chatter() {
     for max_step in [1e-8, 1e-6] {
-        let start = State {
-            t: 0.0,
-            q: vec![0.0; 2],
-            v: vec![1.0, 0.0],
-        };
+        let start = at(&[0.0; 2], &[1.0, 0.0]);
         let run = Simulation::new(Block::default()).start(start);
         let run = run.max_step(max_step).max_steps(1000);
         let failure = run.until(0.1).unwrap_err();
@@ -368,11 +345,7 @@ fn a_jump_is_told_by_its_constraint_level_and_time() {
     for (place, velocity, level) in [(0.1, 0.0, "position"), (0.0, 0.1, "velocity")] {
         for switching in [Switching::Located, Switching::Ignored] {
             let mech = Carriage { place, velocity };
-            let start = State {
-                t: 0.0,
-                q: vec![-place, 0.0],
-                v: vec![0.0; 2],
-            };
+            let start = at_rest(&[-place, 0.0]);
             let run = Simulation::new(mech).start(start).switching(switching);
             let failure = run.until(1.0).expect_err("it jumps");
             let (t, cause) = self::place(&failure);
@@ -496,11 +469,7 @@ ukcore::multibody! {
 fn a_path_with_a_kink_is_told() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         for tolerance in [1e-4, 1e-9, 1e-12] {
-            let start = State {
-                t: 0.0,
-                q: vec![-1.0, 0.2, -3.0],
-                v: vec![0.5, -0.1, 1.5],
-            };
+            let start = at(&[-1.0, 0.2, -3.0], &[0.5, -0.1, 1.5]);
             let run = Simulation::new(Corner::default()).start(start);
             let run = run.method(method).tolerance(tolerance).until(3.0);
             let failure = run.expect_err("a corner");
@@ -530,11 +499,7 @@ fn a_joint_without_mass_that_is_pulled_straight_is_named() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         for (angle, f) in [(0.8_f64, 5.0), (0.8, 1e-3), (0.01, 5.0), (-1.3, 70.0)] {
             let q = vec![angle.cos(), angle.sin(), 2.0 * angle.cos()];
-            let run = Simulation::new(Elbow { f }).start(State {
-                t: 0.0,
-                q,
-                v: vec![0.0; 3],
-            });
+            let run = Simulation::new(Elbow { f }).start(at_rest(&q));
             let straight = ((2.0 - 2.0 * angle.cos()) * 2.0 / f).sqrt();
             let failure = run
                 .method(method)

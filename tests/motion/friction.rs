@@ -1,7 +1,7 @@
 //! Dry friction in the plane, v/|v| in each form in which it is written, straight through rest: closed forms of where a body stops, where
 //! it is held and how it goes on.
 
-use tests::{assert_all_close, assert_close};
+use tests::{assert_all_close, assert_close, at};
 use ukcore::simulate::{Direction, Ending, Sample, Switching};
 use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -257,11 +257,7 @@ fn a_puck_at_rest_ends_runs_across_switches_and_members_of_ensembles() {
             k,
             ..Hypot::default()
         };
-        let start = |v: f64| State {
-            t: 0.0,
-            q: vec![0.0; 2],
-            v: LINES[2].map(|x| x * v).to_vec(),
-        };
+        let start = |v: f64| at(&[0.0; 2], &LINES[2].map(|x| x * v));
         // One of them does not come to rest before the end.
         let members = vec![(puck.clone(), start(2.0)), (puck, start(50.0))];
         let ends = Ensemble::new(members).max_steps(2000).until(1.0);
@@ -412,11 +408,7 @@ fn constraints_with_the_size_of_a_velocity_go_on_where_it_turns() {
         .flat_map(|m| (4..13).map(move |p| (m, p)))
     {
         let tolerance = 10.0_f64.powi(-power);
-        let start = State {
-            t: 0.0,
-            q: vec![0.0; 2],
-            v: vec![3.0; 2],
-        };
+        let start = at(&[0.0; 2], &[3.0; 2]);
         let run = Simulation::new(Bristle::default()).method(method);
         let run = run.tolerance(tolerance).start(start.clone()).until(t_end);
         let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
@@ -427,20 +419,12 @@ fn constraints_with_the_size_of_a_velocity_go_on_where_it_turns() {
             "{method}, {tolerance:e}: {off:e}"
         );
     }
-    let start = State {
-        t: 0.0,
-        q: vec![0.0; 2],
-        v: vec![3.0, 0.01],
-    };
+    let start = at(&[0.0; 2], &[3.0, 0.01]);
     for method in methods {
         let run = Simulation::new(Jerked::default()).method(method);
         let run = run.tolerance(1e-6).start(start.clone()).until(t_end);
         assert!(run.is_err(), "{method}: a jump of a velocity");
-        let start = State {
-            t: 0.0,
-            q: vec![0.5, 0.0, 0.55],
-            v: vec![3.0, 5e3, 3.3],
-        };
+        let start = at(&[0.5, 0.0, 0.55], &[3.0, 5e3, 3.3]);
         let run = Simulation::new(Geared::default()).method(method);
         let run = run.tolerance(1e-3).start(start).until(t_end);
         assert!(run.is_err(), "{method}: a jump beside what goes on");

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use tests::{assert_all_close, assert_close};
+use tests::{assert_all_close, assert_close, at, at_rest};
 use ukcore::simulate::{CsvWriter, Direction, Record, Sample};
 use ukcore::{Ensemble, Error, Event, Mechanism, Method, Simulation, State};
 
@@ -28,11 +28,7 @@ ukcore::multibody! {
 
 /// x = cos 2t.
 fn oscillation(method: Method, tolerance: f64) -> Simulation {
-    let start = State {
-        t: 0.0,
-        q: vec![1.0],
-        v: vec![0.0],
-    };
+    let start = at_rest(&[1.0]);
     Simulation::new(Oscillator::default())
         .method(method)
         .tolerance(tolerance)
@@ -154,11 +150,7 @@ ukcore::multibody! {
 
 #[test]
 fn integrals_leave_no_trace_in_the_motion() {
-    let start = State {
-        t: 0.0,
-        q: vec![1.0],
-        v: vec![0.0],
-    };
+    let start = at_rest(&[1.0]);
     for method in [
         Method::Dop853,
         Method::Dopri5,
@@ -287,11 +279,7 @@ ukcore::multibody! {
 
 #[test]
 fn work_and_losses_make_up_the_change_of_energy() {
-    let mut sketch = State {
-        t: 0.0,
-        q: vec![0.0; 9],
-        v: vec![0.0; 9],
-    };
+    let mut sketch = at_rest(&[0.0; 9]);
     sketch.q[Engine::CRANK_ANGLE] = 1.0;
     sketch.v[Engine::CRANK_ANGLE] = 2.0;
     sketch.q[Engine::PISTON_X] = 1.1;
@@ -327,11 +315,7 @@ ukcore::multibody! {
 
 #[test]
 fn an_integrand_that_is_not_a_number_ends_the_run_by_name() {
-    let start = State {
-        t: 0.0,
-        q: vec![0.0],
-        v: vec![1.0],
-    };
+    let start = at(&[0.0], &[1.0]);
     let failure = Simulation::new(Domain::default())
         .start(start)
         .until(2.0)
@@ -381,11 +365,7 @@ fn pulses_within_long_steps_are_not_passed_over() {
                 w,
                 ..Pulses::default()
             };
-            let start = State {
-                t: 0.0,
-                q: vec![1.0],
-                v: vec![0.0],
-            };
+            let start = at_rest(&[1.0]);
             let run = Simulation::new(pulses).method(method).tolerance(1e-6);
             let run = run.start(start).at(vec![10.0]).until(10.0).unwrap();
             let bell = w * std::f64::consts::PI.sqrt();
@@ -433,11 +413,7 @@ fn integrands_that_multiply_errors_shorten_steps() {
         sum += term;
     }
     let period = std::f64::consts::PI * sum / (2.0 * std::f64::consts::PI * a).sqrt();
-    let start = State {
-        t: 0.0,
-        q: vec![1.0],
-        v: vec![0.0],
-    };
+    let start = at_rest(&[1.0]);
     let end = 3.0 * std::f64::consts::PI;
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         for tolerance in [1e-4, 1e-6, 1e-8] {
@@ -518,11 +494,7 @@ ukcore::multibody! {
 fn integrands_that_are_rounding_are_not_refined() {
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         for tolerance in [1e-5, 1e-9, 1e-12] {
-            let start = State {
-                t: 0.0,
-                q: vec![1.0],
-                v: vec![0.0],
-            };
+            let start = at_rest(&[1.0]);
             let run = Simulation::new(Cancelling::default()).method(method);
             let run = run.tolerance(tolerance).start(start).until(1.0).unwrap();
             let of = |name: &str| *run.integral(name).unwrap().last().unwrap();

@@ -2,7 +2,7 @@
 
 use models::{FishRobot, Model, RoughBlock};
 use std::f64::consts::PI;
-use tests::{Random, assert_all_close, assert_close, largest};
+use tests::{Random, assert_all_close, assert_close, at, largest};
 use ukcore::simulate::Switching::{self, Ignored, Located};
 use ukcore::simulate::{Direction, Work};
 use ukcore::solver::Formula;
@@ -467,11 +467,7 @@ fn rest_under_friction_in_the_plane_is_found_and_named() {
         .into_iter()
         .flat_map(|m| [1e-4, 1e-7, 1e-10].map(|tol| (m, tol)))
     {
-        let start = State {
-            t: 0.0,
-            q: vec![0.0; 2],
-            v: v.to_vec(),
-        };
+        let start = at(&[0.0; 2], &v);
         let run = simulation(Puck::default(), start)
             .method(method)
             .tolerance(tolerance);
@@ -502,11 +498,7 @@ fn a_stone_that_is_rubbed_in_its_plane_comes_to_rest() {
         .into_iter()
         .flat_map(|m| [[0.3, -0.3, 0.0], [1e-9, 2.0, -2.0]].map(|v| (m, v)))
     {
-        let guess = State {
-            t: 0.0,
-            q: vec![2.0, -0.5, -0.5],
-            v: v.to_vec(),
-        };
+        let guess = at(&[2.0, -0.5, -0.5], &v);
         let start = assemble(Stone::default(), &guess, &[]).expect("a plane");
         let failure = simulation(Stone::default(), start)
             .method(method)
@@ -537,11 +529,7 @@ fn a_puck_that_goes_on_is_not_held_up() {
         .flat_map(|m| [1e-4, 1e-7, 1e-10].map(|tol| (m, tol)))
     {
         let run = |v: [f64; 2], turn, switching| {
-            let start = State {
-                t: 0.0,
-                q: vec![0.0; 2],
-                v: v.to_vec(),
-            };
+            let start = at(&[0.0; 2], &v);
             let puck = Puck {
                 slope,
                 turn,

@@ -3,6 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use tests::at;
 use ukcore::{Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 use crate::met::Parallelogram;
@@ -72,19 +73,14 @@ fn swinging() -> Pendulum {
 
 /// States of the parallelogram, and of the slider-crank.
 fn turning(a: f64, rate: f64) -> State {
-    State {
-        t: 0.0,
-        q: vec![a, -a, a],
-        v: vec![rate, -rate, rate],
-    }
+    at(&[a, -a, a], &[rate, -rate, rate])
 }
 
 fn cranked(a: f64, rate: f64) -> State {
-    State {
-        t: 0.0,
-        q: vec![a, -a, 2.0 * a.cos()],
-        v: vec![rate, -rate, -2.0 * a.sin() * rate],
-    }
+    at(
+        &[a, -a, 2.0 * a.cos()],
+        &[rate, -rate, -2.0 * a.sin() * rate],
+    )
 }
 
 /// The angle and its rate at the end of the same motion in one coordinate.

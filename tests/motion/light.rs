@@ -3,7 +3,7 @@
 
 use super::tree::outputs;
 use std::f64::consts::FRAC_PI_2;
-use tests::{Random, assert_all_close};
+use tests::{Random, assert_all_close, at};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Solver, State};
 
@@ -18,11 +18,10 @@ fn accelerations<M: Mechanism>(q: &[f64], v: &[f64]) -> Vec<f64> {
 
 /// Two angles on a cross, about y and then about z, and their rates.
 fn turned(random: &mut Random) -> State {
-    State {
-        t: 0.0,
-        q: vec![3.0 * random.signed(), 1.2 * random.signed()],
-        v: random.vector(2),
-    }
+    at(
+        &[3.0 * random.signed(), 1.2 * random.signed()],
+        &random.vector(2),
+    )
 }
 
 /// What they accelerate with by Lagrange's equations: T = ½ J (ḃ² + ȧ² cos² b), V = −J p sin a cos b.

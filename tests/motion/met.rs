@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use tests::{at, at_rest};
 use ukcore::{Event, Method, Simulation, State, Trajectory};
 
 ukcore::multibody! {
@@ -51,11 +52,7 @@ const METHODS: [(Method, f64); 5] = [
 
 /// Crank, coupler and rocker at an angle, and at a rate.
 fn turning(angle: f64, rate: f64) -> State {
-    State {
-        t: 0.0,
-        q: vec![angle, -angle, angle],
-        v: vec![rate, -rate, rate],
-    }
+    at(&[angle, -angle, angle], &[rate, -rate, rate])
 }
 
 /// The largest difference of velocities, at times that are quarters, from what `velocity` has.
@@ -75,11 +72,7 @@ fn samples(run: &Trajectory) -> impl Iterator<Item = State> {
 fn states_on_crossings_have_the_velocity_of_their_branch() {
     let even = |_t: f64| [PI, -PI, PI];
     let slider = |t: f64| [PI, -PI, -2.0 * PI * (PI * t).sin()];
-    let out = State {
-        t: 0.0,
-        q: vec![0.0, 0.0, 2.0],
-        v: vec![PI, -PI, 0.0],
-    };
+    let out = at(&[0.0, 0.0, 2.0], &[PI, -PI, 0.0]);
     for (method, tolerance) in METHODS {
         let place = format!("{method}, {tolerance:e}");
         let bound = (3.0 * tolerance).max(1e-8);
@@ -160,11 +153,7 @@ fn events_where_a_motion_turns_are_on_the_constraints() {
     ] {
         for absolute in [1e-6, 1e-9] {
             let angle = 0.2 + 0.09 * 7.0_f64;
-            let start = State {
-                t: 0.0,
-                q: vec![angle.cos(), angle.sin()],
-                v: vec![0.0; 2],
-            };
+            let start = at_rest(&[angle.cos(), angle.sin()]);
             let turn = Event::new("turn", |_t, q, v| q[0] * v[1] - q[1] * v[0]);
             let run = Simulation::new(Ring { k }).start(start).event(turn);
             let run = run.method(method).tolerance(tolerance);

@@ -3,7 +3,7 @@
 //! The oracle is Grashof's: in a closed chain of four rods whose shortest and longest are together shorter than the others, the angles at
 //! both ends of the rod opposite to the shortest one stay between 0 and π. A change of branch changes the sign of their sines.
 
-use tests::hunted;
+use tests::{at, hunted};
 use ukcore::simulate::Sample;
 use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -99,11 +99,10 @@ fn points(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
             ..Points::default()
         }
         .prepared(),
-        start: State {
-            t: 0.0,
-            q: [p, q].concat(),
-            v: [vp, vq].concat().iter().map(|v| w * v).collect(),
-        },
+        start: at(
+            &[p, q].concat(),
+            &[vp, vq].concat().iter().map(|v| w * v).collect::<Vec<_>>(),
+        ),
         joints: |s| [[s.q[0], s.q[1]], [s.q[2], s.q[3]]],
         ground: d,
         shortest,
@@ -164,11 +163,10 @@ fn pair(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
             ..Pair::default()
         }
         .prepared(),
-        start: State {
-            t: 0.0,
-            q: [p, q, r].concat(),
-            v: [vp, vq, vr].concat().iter().map(|v| w * v).collect(),
-        },
+        start: at(
+            &[p, q, r].concat(),
+            &[vp, vq, vr].concat().iter().map(|v| w * v).collect::<Vec<_>>(),
+        ),
         joints: |s| [[s.q[0], s.q[1]], [s.q[4], s.q[5]]],
         ground: d,
         shortest,
@@ -428,11 +426,10 @@ fn rows_that_follow_from_others_hide_no_near_miss() {
                     let (s, y) = (0.3_f64, (0.3_f64.cos().powi(2) + e).sqrt());
                     let slope = -s.cos() * s.sin() / y;
                     let rate = speed / slope.hypot(1.0);
-                    let start = State {
-                        t: 0.0,
-                        q: vec![s.cos(), y, s.sin()],
-                        v: vec![-s.sin() * rate, slope * rate, s.cos() * rate],
-                    };
+                    let start = at(
+                        &[s.cos(), y, s.sin()],
+                        &[-s.sin() * rate, slope * rate, s.cos() * rate],
+                    );
                     let all: [Prepared; 4] = [
                         (&Last { e }).into(),
                         (&First { e }).into(),

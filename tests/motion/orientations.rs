@@ -2,7 +2,7 @@
 //! and the constraint on its length mends that. Accelerations of the default solver against the same equations in 31 digits.
 
 use std::fmt::Debug;
-use tests::{Random, hunted, largest};
+use tests::{Random, at, hunted, largest};
 use ukcore::equations::precise;
 use ukcore::manifold::Projector;
 use ukcore::solver::SolverOptions;
@@ -302,11 +302,7 @@ fn runs_and_derivatives_near_the_identity() {
                 0.5 * (e0 * w2 + e3 * w1 - e1 * w3),
                 0.5 * (e0 * w3 + e1 * w2 - e2 * w1),
             ];
-            State {
-                t: 0.0,
-                q: vec![e0, e1, e2, e3],
-                v,
-            }
+            at(&[e0, e1, e2, e3], &v)
         };
         let derivatives = |state: &State| {
             let found = Linearisation::at(&mechanism, state).expect("derivatives");

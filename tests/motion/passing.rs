@@ -7,9 +7,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::launched::{Pendulum, alone};
 use mechanisms::{ANGLE, CASES, Case, Crank, CrankAngle, SpringCrank, crank, crank_pendulum};
-use tests::hunted;
+use tests::{at, hunted};
 use ukcore::simulate::Sample;
-use ukcore::{Ensemble, Error, Event, Mechanism, Method, Simulation, State, Trajectory};
+use ukcore::{Ensemble, Error, Event, Mechanism, Method, Simulation, Trajectory};
 
 fn worst(run: &Trajectory, off: fn(Sample<'_>) -> f64) -> f64 {
     run.samples()
@@ -218,11 +218,7 @@ fn samples_in_steps_over_singular_positions_are_in_their_branch() {
 #[test]
 fn runs_end_and_are_sampled_at_singular_positions() {
     let rate = 5.5;
-    let angle = State {
-        t: 0.0,
-        q: vec![ANGLE],
-        v: vec![rate],
-    };
+    let angle = at(&[ANGLE], &[rate]);
     let own = CrankAngle::default();
     let up = Event::new("up", |_t, q, _v| q[0] - 0.5 * std::f64::consts::PI);
     let own = Simulation::new(own).start(angle).tolerance(1e-13).event(up);
@@ -323,13 +319,10 @@ fn starts_beside_singular_positions_are_as_good_as_others() {
                 ..Crank::default()
             }
             .prepared();
-            let start = State {
-                t: 0.0,
-                q: vec![c / 2.0, s / 2.0, angle, 1.5 * c, s / 2.0, -angle, 2.0 * c],
-                v: [-s / 2.0, c / 2.0, 1.0, -1.5 * s, c / 2.0, -1.0, -2.0 * s]
-                    .map(|x| x * w)
-                    .to_vec(),
-            };
+            let start = at(
+                &[c / 2.0, s / 2.0, angle, 1.5 * c, s / 2.0, -angle, 2.0 * c],
+                &[-s / 2.0, c / 2.0, 1.0, -1.5 * s, c / 2.0, -1.0, -2.0 * s].map(|x| x * w),
+            );
             for method in [
                 Method::Dop853,
                 Method::Dopri5,
@@ -365,11 +358,7 @@ fn what_is_passed_is_the_motion_in_the_branch_s_own_coordinate() {
         (0.0, -4.2, 7.0),
         (0.0, 5.1, -6.0),
     ] {
-        let angle = State {
-            t: 0.0,
-            q: vec![ANGLE],
-            v: vec![rate],
-        };
+        let angle = at(&[ANGLE], &[rate]);
         let own = CrankAngle {
             g,
             ..CrankAngle::default()
@@ -476,11 +465,7 @@ fn rattle_goes_over_singular_positions_with_long_steps() {
         [(0.0, 1.0), (0.0, 1.854), (0.7, 2.618)].map(|(g, rate)| (g, rate, size))
     }) {
         let (step, end) = (size / rate, 16.0 / rate);
-        let start = State {
-            t: 0.0,
-            q: vec![0.3, 0.0, 0.3],
-            v: vec![rate, 0.0, rate],
-        };
+        let start = at(&[0.3, 0.0, 0.3], &[rate, 0.0, rate]);
         let run = Simulation::new(Linkage { g }).method(Method::Rattle { step });
         let run = run.start(start).until(end);
         let run = run.unwrap_or_else(|failure| panic!("{g} {rate} {size}: {failure}"));
@@ -545,11 +530,7 @@ fn samples_of_the_implicit_method_beside_nodes_keep_their_velocities() {
     for (tolerance, dt) in [(1e-3, 0.1), (1e-4, 0.05)] {
         for k in 0..240 {
             let speed = 0.8 + 0.0417 * f64::from(k);
-            let start = State {
-                t: 0.0,
-                q: vec![0.5, std::f64::consts::PI - 0.5],
-                v: vec![speed, -speed],
-            };
+            let start = at(&[0.5, std::f64::consts::PI - 0.5], &[speed, -speed]);
             let run = Simulation::new(Wheels::default()).start(start);
             let run = run.method(Method::Radau5).tolerance(tolerance).every(dt);
             let run = run.until(8.0).expect("it goes straight on");

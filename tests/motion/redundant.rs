@@ -15,7 +15,7 @@ mod wheels;
 
 use mechanisms::SpatialFourBar;
 use models::{DoubleScottRussell, Model};
-use tests::{Dense, Random, assert_all_close, largest};
+use tests::{Dense, Random, assert_all_close, at, largest};
 use ukcore::equations::up;
 use ukcore::manifold::{Projector, Stabilisation};
 use ukcore::simulate::Sample;
@@ -209,11 +209,7 @@ fn contradictions_are_refused_by_name() {
         assert!(named("first") || named("second"), "{constraints:?}");
         for stabilisation in [Stabilisation::Projection, Stabilisation::None] {
             let run = Simulation::new(mechanism.clone())
-                .start(State {
-                    t: 0.0,
-                    q: vec![0.0; 2],
-                    v: vec![1.0, 0.5],
-                })
+                .start(at(&[0.0; 2], &[1.0, 0.5]))
                 .stabilise(stabilisation)
                 .until(1.0);
             let text = run.expect_err("they contradict each other").to_string();

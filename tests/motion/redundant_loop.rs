@@ -1,6 +1,7 @@
 //! Parallelograms with a rod too many, sampled where that rod's own velocities vanish, and beside the line of the axles.
 
-use ukcore::{Event, Simulation, State};
+use tests::{at, at_rest};
+use ukcore::{Event, Simulation};
 
 ukcore::multibody! {
     /// Two cranks and a coupler; the coupler stays level, which is said once more.
@@ -23,11 +24,7 @@ fn samples_and_events_where_a_redundant_row_is_at_rest() {
     let (s, c) = 1.0_f64.sin_cos();
     let (x, y) = (0.5 * s, -0.5 * c);
     for tolerance in [1e-6, 1e-9, 1e-11] {
-        let start = State {
-            t: 0.0,
-            q: vec![x, y, x + 0.8, y],
-            v: vec![0.0; 4],
-        };
+        let start = at_rest(&[x, y, x + 0.8, y]);
         let run = Simulation::new(Parallelogram::default())
             .start(start)
             .tolerance(tolerance)
@@ -59,11 +56,7 @@ ukcore::multibody! {
 fn samples_beside_the_line_of_the_axles_are_of_the_motion() {
     for rate in [2.775, 2.3, 3.1, 4.2] {
         let angle = 1e-3;
-        let start = State {
-            t: 0.0,
-            q: vec![angle, angle, angle, -angle],
-            v: vec![rate, rate, rate, -rate],
-        };
+        let start = at(&[angle, angle, angle, -angle], &[rate, rate, rate, -rate]);
         for tolerance in [1e-8, 1e-9] {
             let run = Simulation::new(Cranks::default()).start(start.clone());
             let run = run.tolerance(tolerance).every(0.03).until(2.0);

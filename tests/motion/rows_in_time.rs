@@ -1,6 +1,7 @@
 //! Prescribed motions: rows that imply each other and contain the time, and times so late, or so fast a motion, that rounding of the time
 //! is more than the error that is asked for.
 
+use tests::at;
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State, Trajectory, assemble};
 
 macro_rules! driven {
@@ -49,11 +50,7 @@ fn run(mechanism: &Prepared, method: Method, span: f64) -> Result<Trajectory, Er
     let n = mechanism.spec().n();
     let (a, w) = (mechanism.get("a")?, mechanism.get("w")?);
     let state = |first: f64, second: f64| [first, second][..n].to_vec();
-    let guess = State {
-        t: 0.0,
-        q: state(0.0, a),
-        v: state(a * w, 0.0),
-    };
+    let guess = at(&state(0.0, a), &state(a * w, 0.0));
     let start = assemble(mechanism, &guess, &[])?;
     let run = Simulation::new(mechanism)
         .start(start)

@@ -1,6 +1,7 @@
 //! A mechanism whose lengths are 1e-9 … 1e9 times as large, with gravity as much larger, moves as it did: runs at the default absolute
 //! tolerance take the same steps but for rounding, whatever the coordinates are, and get to the same shapes.
 
+use tests::at_rest;
 use ukcore::model::StartOptions;
 use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -305,11 +306,7 @@ fn rounding_of_one_part_is_granted_to_no_other() {
         (1e9, Method::Dopri5, 1e-11),
         (1e7, Method::Dop853, 1e-13),
     ] {
-        let start = State {
-            t: 0.0,
-            q: vec![far + 1.0, 1.0],
-            v: vec![0.0; 2],
-        };
+        let start = at_rest(&[far + 1.0, 1.0]);
         let run = Simulation::new(Apart { far }).start(start);
         let run = run.method(method).tolerance(tolerance).until(10.0);
         let run = run.expect("a motion");

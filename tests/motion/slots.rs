@@ -1,7 +1,7 @@
 //! A crank's pin in the slot of a lever, past the lever's pivot at a small distance: there the lever turns by half a turn where it would go
 //! straight on beside it. Long steps lead past several such places; late, the time is known no better than they are wide.
 
-use tests::less_turns;
+use tests::{at, less_turns};
 use ukcore::{Error, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -101,11 +101,7 @@ fn loops_that_nearly_touch_are_not_left() {
         for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
             for tolerance in [1e-3, 1e-5, 1e-7] {
                 let x = (1.0 + (1.0 + miss).sqrt()).sqrt();
-                let start = State {
-                    t: 0.0,
-                    q: vec![x, 0.0],
-                    v: vec![0.0, 1.3],
-                };
+                let start = at(&[x, 0.0], &[0.0, 1.3]);
                 let run = Simulation::new(Loops { e: miss })
                     .start(start)
                     .method(method)

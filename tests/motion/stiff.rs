@@ -2,7 +2,7 @@
 
 use models::{FishRobot, Model, Pendulum, SpringPendulum, StartOptions};
 use std::f64::consts::FRAC_PI_2;
-use tests::{assert_all_close, assert_close, at};
+use tests::{assert_all_close, assert_close, at, at_rest};
 use ukcore::simulate::Direction;
 use ukcore::{Event, Mechanism, Method, Simulation, State, Trajectory};
 
@@ -50,11 +50,7 @@ ukcore::multibody! {
 
 #[test]
 fn a_start_without_derivative_is_got_over() {
-    let start = State {
-        t: 0.0,
-        q: vec![0.0; 2],
-        v: vec![0.0; 2],
-    };
+    let start = at_rest(&[0.0; 2]);
     let run = Simulation::new(Sinking::default())
         .start(start)
         .method(Method::Radau5)
@@ -208,11 +204,7 @@ fn a_tolerance_below_the_rounding_of_forces_is_told_and_not_refined_past() {
         for sign in [1.0, -1.0] {
             let (frequency, phase, swing) = (k.sqrt(), 1000.0, 1e-3);
             let run = |tolerance: f64| {
-                let start = State {
-                    t: 0.0,
-                    q: vec![1.0 + swing],
-                    v: vec![0.0],
-                };
+                let start = at_rest(&[1.0 + swing]);
                 let run = Simulation::new(Hung { k }).start(start).at(Vec::new());
                 let run = run.tolerance(tolerance).until(sign * phase / frequency);
                 let run = run.expect("it swings");

@@ -1,6 +1,6 @@
 //! Light coordinates that constraints tie to heavy ones: no fast motion, and accelerations that are small differences of large terms.
 
-use tests::Random;
+use tests::{Random, at};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Simulation, Solver, State, lost_reactions};
@@ -70,11 +70,10 @@ impl Yoke {
     }
 
     fn start(&self) -> State {
-        State {
-            t: 0.0,
-            q: vec![0.5, self.r * 0.5_f64.cos()],
-            v: vec![20.0, -20.0 * self.r * 0.5_f64.sin()],
-        }
+        at(
+            &[0.5, self.r * 0.5_f64.cos()],
+            &[20.0, -20.0 * self.r * 0.5_f64.sin()],
+        )
     }
 }
 

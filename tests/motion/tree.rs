@@ -2,7 +2,7 @@
 //! joints stand.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
-use tests::{Random, assert_all_close, assert_close};
+use tests::{Random, assert_all_close, assert_close, at, at_rest};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Prepared, Simulation, Solver, State, Trajectory, assemble};
 
@@ -321,11 +321,10 @@ arm!(OwnArm, holonomic);
 fn an_arm_of_12_hinges_accelerates_alike_in_both_sets_of_coordinates() {
     let axes = [2, 1, 1, 0, 1, 2].map(|k| Vector3::<f64>::ith(k, 1.0));
     let angle = |i: usize| 0.4 * (1.3 * i as f64).sin();
-    let state = State {
-        t: 0.0,
-        q: (0..12).map(angle).collect(),
-        v: (0..12).map(|i| angle(i + 12)).collect(),
-    };
+    let state = at(
+        &(0..12).map(angle).collect::<Vec<_>>(),
+        &(0..12).map(|i| angle(i + 12)).collect::<Vec<_>>(),
+    );
     assert_eq!(Arm::SPEC.coords.len(), 12);
     let mut a = vec![0.0; 12];
     let safe = Arm::default()
@@ -421,11 +420,7 @@ ukcore::multibody! {
 /// Its relative angles follow sin a + sin b + sin a sin b = 0.
 #[test]
 fn bricards_linkage_by_angles_moves_with_a_row_to_spare() {
-    let start = State {
-        t: 0.0,
-        q: vec![0.0; 5],
-        v: vec![0.0; 5],
-    };
+    let start = at_rest(&[0.0; 5]);
     let mut solver = Solver::new(Bricard::default(), SolverOptions::default());
     let solution = solver
         .solve(0.0, &start.q, &start.v)

@@ -610,11 +610,7 @@ fn where_a_length_ends_so_does_the_motion() {
         for tolerance in [1e-2, 1e-5, 1e-8] {
             for spin in [0.0, 1e-3] {
                 let run = Simulation::new(Hole::default())
-                    .start(State {
-                        t: 0.0,
-                        q: vec![1.0, 0.0, -1.0],
-                        v: vec![0.0, spin, 0.0],
-                    })
+                    .start(at(&[1.0, 0.0, -1.0], &[0.0, spin, 0.0]))
                     .method(method)
                     .tolerance(tolerance)
                     .until(1.5);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use tests::assert_close;
+use tests::{assert_close, at};
 use ukcore::{Mechanism, Method, Simulation, State, assemble};
 
 ukcore::multibody! {
@@ -162,11 +162,7 @@ fn wheels_that_stand_across_are_passed() {
             [m, j, l],
             &case,
             &runs(),
-            |_, [turn, along]| State {
-                t: 0.0,
-                q: vec![0.0; 3],
-                v: vec![along, 0.0, turn],
-            },
+            |_, [turn, along]| at(&[0.0; 3], &[along, 0.0, turn]),
         );
     }
 }
@@ -197,10 +193,9 @@ fn wheels_that_stand_across_are_passed_beside_joints() {
             &runs(),
             |p, [turn, along]| {
                 let rate = w + a * t.cos();
-                State {
-                    t: 0.0,
-                    q: vec![0.0, 0.0, 0.0, -l, 0.0, -p, l, 0.0, p],
-                    v: vec![
+                at(
+                    &[0.0, 0.0, 0.0, -l, 0.0, -p, l, 0.0, p],
+                    &[
                         along,
                         0.0,
                         turn,
@@ -211,7 +206,7 @@ fn wheels_that_stand_across_are_passed_beside_joints() {
                         l * turn,
                         turn + rate,
                     ],
-                }
+                )
             },
         );
     }

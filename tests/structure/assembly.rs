@@ -5,7 +5,7 @@ mod mechanisms;
 
 use mechanisms::{Angles, Cranks, Hinge, Leg, Rows, Short, Sledge, Wave};
 use std::fmt::Debug;
-use tests::{Random, hunted};
+use tests::{Random, at, at_rest, hunted};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::{Error, Mechanism, Prepared, State, assemble};
 
@@ -225,12 +225,8 @@ fn rows(random: &mut Random) -> Known<Rows> {
         l,
         w: often_zero(random),
     };
-    let q = mechanism.p.iter().zip(l).map(|(p, l)| p * l).collect();
-    let state = State {
-        t: 0.0,
-        q,
-        v: vec![0.0; 4],
-    };
+    let q: Vec<f64> = mechanism.p.iter().zip(l).map(|(p, l)| p * l).collect();
+    let state = at_rest(&q);
     let reach = 0.1 * regularity(&mechanism, &state, &l);
     Known {
         mechanism,
@@ -305,11 +301,7 @@ fn leg(random: &mut Random) -> Known<Leg> {
     q.extend(x.iter().chain(&y));
     let mut lengths = vec![l; 9];
     lengths[0] = 1.0;
-    let state = State {
-        t: 0.0,
-        q,
-        v: vec![0.0; 9],
-    };
+    let state = at_rest(&q);
     let reach = 0.1 * regularity(&mechanism, &state, &lengths);
     // Points may be as much faster than the crank.
     let rates = lengths.iter().map(|l| l / reach.clamp(1e-3, 1.0)).collect();
@@ -340,11 +332,7 @@ fn cranks(random: &mut Random) -> Known<Cranks> {
     };
     Known {
         mechanism,
-        state: State {
-            t: 0.0,
-            q,
-            v: vec![0.0; 6],
-        },
+        state: at_rest(&q),
         lengths: vec![l; 6],
         rates: vec![l; 6],
         reach: 1.0,
@@ -382,11 +370,10 @@ fn sledge(random: &mut Random) -> Known<Sledge> {
         turn,
     };
     let (s, c) = th.sin_cos();
-    let state = State {
-        t: 0.0,
-        q: vec![l * often_zero(random), l * often_zero(random), th, l * s],
-        v: vec![l * speed * c, l * speed * s, turn, l * c * turn],
-    };
+    let state = at(
+        &[l * often_zero(random), l * often_zero(random), th, l * s],
+        &[l * speed * c, l * speed * s, turn, l * c * turn],
+    );
     let lengths = vec![l, l, 1.0, l];
     Known {
         mechanism,
@@ -409,11 +396,7 @@ fn short(random: &mut Random) -> Known<Short> {
     let mechanism = Short { l, a, b, far };
     let (s, c) = (3.0 * often_zero(random)).sin_cos();
     let (x, y) = (a + l * c, b + l * s);
-    let state = State {
-        t: 0.0,
-        q: vec![x, y, x + far, y],
-        v: vec![0.0; 4],
-    };
+    let state = at_rest(&[x, y, x + far, y]);
     Known {
         mechanism,
         state,
@@ -465,11 +448,7 @@ fn a_wave_is_met_next_to_the_guess_in_every_unit_of_length() {
     for from in [0.5, 2.0] {
         let u = exact(from);
         for l in [1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9] {
-            let guess = State {
-                t: 0.0,
-                q: vec![from * l, 0.0],
-                v: vec![0.0; 2],
-            };
+            let guess = at_rest(&[from * l, 0.0]);
             let found = assemble(Wave { l }, &guess, &[]);
             let found = found.unwrap_or_else(|e| panic!("l = {l:e} from {from}: {e}"));
             let off = found.q[0] / l - u;
@@ -498,16 +477,15 @@ fn a_rod_of_no_length_far_from_the_origin_may_move() {
     };
     for k in 0..100 {
         let (i, j) = (f64::from(k % 10), f64::from(k / 10));
-        let guess = State {
-            t: 0.0,
-            q: vec![
+        let guess = at(
+            &[
                 a - 19.0 + 0.37 * i,
                 b - 36.0 + 0.41 * j,
                 97174635.6,
                 b - 9.0,
             ],
-            v: vec![36.8, -27.9, 29.3, -36.2],
-        };
+            &[36.8, -27.9, 29.3, -36.2],
+        );
         let found = assemble(&mechanism, &guess, &[]);
         let State { q, v, .. } = found.unwrap_or_else(|e| panic!("{i}, {j}: {e}"));
         // The square of a distance of 1e-5 is rounding of the places' squares.

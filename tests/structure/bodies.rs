@@ -1,7 +1,7 @@
 //! Bodies: what acts on them does the power that the energy gains, and inertias that none has are refused.
 
 use super::joints::{random_state, solved};
-use tests::{Random, assert_close};
+use tests::{Random, assert_close, at_rest};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Simulation, Solver, State, assemble};
 
@@ -180,11 +180,7 @@ fn inertia_of_no_rigid_body_is_refused_by_name() {
     let check = |change: &dyn Fn(&mut Weighed), message: &str| {
         let mut mechanism = Weighed::default();
         change(&mut mechanism);
-        let mut state = State {
-            t: 0.0,
-            q: vec![0.0; 14],
-            v: vec![0.0; 14],
-        };
+        let mut state = at_rest(&[0.0; 14]);
         (state.q[3], state.q[10]) = (1.0, 1.0);
         let solved =
             Solver::new(mechanism.clone(), SolverOptions::default()).solve(0.0, &state.q, &state.v);

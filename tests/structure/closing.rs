@@ -1,8 +1,9 @@
 //! What can be put together, and what cannot: the line between the two is the same in all units of length, in bodies, points and angles.
 
+use tests::at_rest;
 use ukcore::assemble::residuals;
 use ukcore::manifold::Projector;
-use ukcore::{Error, Mechanism, Prepared, Simulation, State, assemble, equilibrium};
+use ukcore::{Error, Mechanism, Prepared, Simulation, assemble, equilibrium};
 
 /// Lengths.
 const SCALES: [f64; 10] = [1e-9, 1e-7, 1e-5, 1e-3, 0.1, 1.0, 1e2, 1e4, 1e6, 1e9];
@@ -93,10 +94,6 @@ fn bars(l: f64, s: f64) -> [(&'static str, Prepared, Vec<f64>); 3] {
     ]
 }
 
-fn at_rest(q: Vec<f64>) -> State {
-    let v = vec![0.0; q.len()];
-    State { t: 0.0, q, v }
-}
 
 #[test]
 fn bars_that_are_long_enough_meet() {
@@ -104,7 +101,7 @@ fn bars_that_are_long_enough_meet() {
         for s in [2.0, 2.0 - 1e-12, 2.0 - 1e-6, 1.3, 0.2] {
             for (name, mechanism, guess) in bars(l, s) {
                 let context = format!("{name}, l = {l:e}, 2 - {:e}", 2.0 - s);
-                let state = assemble(&mechanism, &at_rest(guess), &[]);
+                let state = assemble(&mechanism, &at_rest(&guess), &[]);
                 let state = state.unwrap_or_else(|e| panic!("{context}: {e}"));
                 let off = residuals(&mechanism, &state).unwrap().largest_position();
                 let unit = if name == "points" { l * l } else { l };
@@ -124,7 +121,7 @@ fn bars_that_are_too_short_do_not() {
             let s = 2.0 + over;
             for (name, mechanism, guess) in bars(l, s) {
                 let context = format!("{name}, l = {l:e}, 2 + {over:e}");
-                let error = assemble(&mechanism, &at_rest(guess), &[]);
+                let error = assemble(&mechanism, &at_rest(&guess), &[]);
                 let error = error.expect_err(&context);
                 let Error::NotAssembled { constraints, .. } = error else {
                     panic!("{context}: {error}")
@@ -179,7 +176,7 @@ fn the_cell_of_peaucellier_draws_a_line_in_all_units() {
                 guess[index(&format!("{body}.angle"))] = place[2] + off;
             }
             let mechanism = Peaucellier { l, m: 1.0 };
-            let state = assemble(&mechanism, &at_rest(guess), &[]);
+            let state = assemble(&mechanism, &at_rest(&guess), &[]);
             let state = state.unwrap_or_else(|e| panic!("l = {l:e}, {turn}: {e}"));
             let (x, angle) = (state.q[index("far[0].x")], state.q[index("far[0].angle")]);
             let x = x / l + 0.5 * short * angle.cos();
@@ -197,7 +194,7 @@ fn starts_are_known_to_the_same_share_in_all_units() {
     for off in [1e-12, 1e-9, 1e-7, 1e-4] {
         let taken = SCALES.map(|l| {
             bars(l, 1.3).map(|(name, mechanism, guess)| {
-                let exact = assemble(&mechanism, &at_rest(guess), &[]).unwrap();
+                let exact = assemble(&mechanism, &at_rest(&guess), &[]).unwrap();
                 let mut start = exact.clone();
                 for (k, q) in start.q.iter_mut().enumerate() {
                     let angle = name == "angles" || name == "bodies" && k % 3 == 2;
@@ -230,7 +227,7 @@ ukcore::multibody! {
 fn a_pendulum_comes_to_rest_in_all_units() {
     for l in SCALES {
         let mechanism = Pendulum { l, m: 1.0, g: l };
-        let guess = at_rest(vec![0.4 * l, 0.3 * l, 0.6]);
+        let guess = at_rest(&[0.4 * l, 0.3 * l, 0.6]);
         let rest = equilibrium(&mechanism, &guess, &[]);
         let rest = rest.unwrap_or_else(|e| panic!("l = {l:e}: {e}"));
         let angle = rest.state.q[2];
@@ -261,7 +258,7 @@ ukcore::multibody! {
 fn coordinates_may_end_at_zero_in_all_units() {
     for l in SCALES {
         for from in [1.0, 1e-3, 1e-6, 1e-9, 1e-13] {
-            let guess = at_rest(vec![from * l, from]);
+            let guess = at_rest(&[from * l, from]);
             let found = assemble(Zeros { l }, &guess, &[]);
             let found = found.unwrap_or_else(|e| panic!("l = {l:e} from {from:e}: {e}"));
             let [x, y] = [found.q[0] / l, found.q[1]];
@@ -276,7 +273,7 @@ fn coordinates_may_end_at_zero_in_all_units() {
 #[test]
 fn a_row_that_vanishes_is_assembled_where_a_run_takes_it() {
     for from in [0.5, 1e-3, 1e-8, 0.0] {
-        let found = assemble(Vanishing::default(), &at_rest(vec![from, 0.9]), &[]);
+        let found = assemble(Vanishing::default(), &at_rest(&[from, 0.9]), &[]);
         let state = found.unwrap_or_else(|e| panic!("from {from:e}: {e}"));
         assert!(state.q[0].abs() < 1e-13 && state.q[1] == 1.0, "{state:?}");
         let run = Simulation::new(Vanishing::default()).start(state);

@@ -3,7 +3,7 @@
 
 use tests::{Random, assert_all_close, at_rest, largest};
 use ukcore::solver::{Formula, SolverOptions};
-use ukcore::{Simulation, Solver, State, assemble};
+use ukcore::{Simulation, Solver, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.
@@ -72,11 +72,7 @@ fn a_truss_stands() {
 #[test]
 fn a_swing_rests_and_swings() {
     let swing = Swing::default();
-    let hang = |angle: f64| State {
-        t: 0.0,
-        q: vec![swing.l * angle.sin(), -swing.l * angle.cos(), 0.0],
-        v: vec![0.0; 3],
-    };
+    let hang = |angle: f64| at_rest(&[swing.l * angle.sin(), -swing.l * angle.cos(), 0.0]);
     for (angle, still) in [(0.0, true), (0.3, false)] {
         let run = Simulation::new(swing.clone())
             .start(hang(angle))

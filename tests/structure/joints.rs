@@ -1,7 +1,7 @@
 //! Joints between bodies: rows against rotations of another making, degrees of freedom by hand, reactions by Newton and Euler.
 
 use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, Vector2, Vector3};
-use tests::{Random, assert_all_close, assert_close};
+use tests::{Random, assert_all_close, assert_close, at, at_rest};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Solution, Solver, State, assemble};
 
@@ -377,11 +377,7 @@ held! {
 /// The mechanism near the place where the frames of body and ground agree, its centre of mass moved by `off`.
 fn placed<M: Mechanism>(off: [f64; 2]) -> State {
     let n = M::SPEC.coords.len();
-    let mut guess = State {
-        t: 0.0,
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut guess = at_rest(&vec![0.0; n]);
     guess.q[..2].copy_from_slice(&off);
     if n == 7 {
         (guess.q[2], guess.q[3]) = (0.4, 1.0);
@@ -470,11 +466,7 @@ fn reaction_of_a_pin_is_that_of_newton_and_euler() {
         let (angle, rate) = (3.0 * random.signed(), 2.0 * random.signed());
         let arm = Rotation2::new(angle) * Vector2::new(0.1, 0.2);
         let velocity = rate * Vector2::new(-arm.y, arm.x);
-        let state = State {
-            t: 0.0,
-            q: vec![arm.x, arm.y, angle],
-            v: vec![velocity.x, velocity.y, rate],
-        };
+        let state = at(&[arm.x, arm.y, angle], &[velocity.x, velocity.y, rate]);
         let solution = solved::<Pin>(&state);
         let force = Vector2::new(
             solution.multipliers[Pin::J[0]],

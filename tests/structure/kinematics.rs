@@ -6,8 +6,8 @@ mod refusals;
 
 use std::f64::consts::{PI, TAU};
 
-use tests::FourBar;
 use tests::assert_close;
+use tests::{FourBar, at_rest};
 use ukcore::studies::Kinematics;
 use ukcore::{Error, Mechanism, State, kinematics};
 
@@ -113,11 +113,7 @@ fn a_slider_crank_by_its_crank() {
             false => {
                 let (x, y) = (r * start.cos(), r * start.sin());
                 let q = vec![0.0, 0.0, start, x, y, -start, 2.0 * x, 0.0, 0.0];
-                let guess = State {
-                    t: 0.0,
-                    q,
-                    v: vec![0.0; 9],
-                };
+                let guess = at_rest(&q);
                 ukcore::assemble(&press, &guess, &["crank.angle"]).unwrap()
             }
         };
@@ -261,16 +257,7 @@ fn time_goes_forward_in_all_sweeps() {
     }
     let turn = kinematics(
         &arm,
-        &ukcore::assemble(
-            &arm,
-            &State {
-                t: 0.0,
-                q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
-                v: vec![0.0; 5],
-            },
-            &[],
-        )
-        .unwrap(),
+        &ukcore::assemble(&arm, &at_rest(&[0.3, 0.5, 2.5, 1.3, 6.0]), &[]).unwrap(),
         &[("a", 0.0..1.0), ("t", 0.5..0.5)],
         &["b"],
         4,
@@ -505,11 +492,7 @@ fn a_motor_reaches_its_limit_in_time() {
         }
     }
     let driven = Driven::default();
-    let guess = State {
-        t: 0.0,
-        q: vec![0.2, 2.0, 1.2],
-        v: vec![0.0; 3],
-    };
+    let guess = at_rest(&[0.2, 2.0, 1.2]);
     let start = ukcore::assemble(&driven, &guess, &[]).unwrap();
     let found = swept(&driven, &start, "t", 0.0..10.0, 100);
     let limit = ((1.5_f64.powi(2) + 4.0 - 2.2_f64.powi(2)) / 6.0).acos();

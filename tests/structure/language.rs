@@ -2,7 +2,7 @@
 //! numbers.
 
 use nalgebra::DMatrix;
-use tests::{Dense, Random, assert_all_close, assert_close};
+use tests::{Dense, Random, assert_all_close, assert_close, at};
 use ukcore::scalar::{Dual, Scalar};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Solver, State};
@@ -445,11 +445,7 @@ ukcore::multibody! {
 #[test]
 fn what_is_not_finite_is_refused_where_no_equation_contains_it() {
     let ball = Ball::default();
-    let good = State {
-        t: 0.0,
-        q: vec![1.0, 2.0],
-        v: vec![3.0, 4.0],
-    };
+    let good = at(&[1.0, 2.0], &[3.0, 4.0]);
     assert_eq!(
         acceleration(&ball, Formula::Auto, &good),
         Ok(vec![0.0, -9.81])

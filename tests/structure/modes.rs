@@ -3,9 +3,9 @@
 mod defective;
 mod graded;
 
-use tests::{assert_all_close, assert_close, at_rest};
+use tests::{assert_all_close, assert_close, at, at_rest};
 use ukcore::studies::Mode;
-use ukcore::{Error, Mechanism, State, equilibrium, modes};
+use ukcore::{Error, Mechanism, equilibrium, modes};
 
 ukcore::multibody! {
     /// Masses in a row between two walls, with springs between neighbours.
@@ -136,11 +136,7 @@ fn constraints_have_no_modes_of_their_own() {
 fn a_sleigh_runs_straight_with_its_weight_in_front() {
     for u in [-3.0, 0.5, 2.0] {
         let sleigh = Sleigh::default();
-        let state = State {
-            t: 0.0,
-            q: vec![1.0, 2.0, 0.0],
-            v: vec![u, 0.0, 0.0],
-        };
+        let state = at(&[1.0, 2.0, 0.0], &[u, 0.0, 0.0]);
         let found = modes(&sleigh, &state).expect("steady");
         let (m, j, a) = (sleigh.m, sleigh.j, sleigh.a);
         let growth = -m * a * u / (j + m * a * a);

@@ -1,9 +1,9 @@
 //! Declarations within declarations: a mechanism of parts, of this crate and of another, is the one that is written out.
 
 use tests::leg::Leg;
-use tests::{Random, assert_all_close, largest};
+use tests::{Random, assert_all_close, at_rest, largest};
 use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Simulation, Solver, State, assemble};
+use ukcore::{Mechanism, Simulation, Solver, assemble};
 
 mod tails {
     ukcore::multibody! {
@@ -142,11 +142,7 @@ fn starts_name_what_stands_in_parts() {
 /// A part is a mechanism by itself, too.
 #[test]
 fn a_part_runs_by_itself() {
-    let mut guess = State {
-        t: 0.0,
-        q: vec![0.0; 6],
-        v: vec![0.0; 6],
-    };
+    let mut guess = at_rest(&[0.0; 6]);
     guess.q[Leg::BAR_ANGLE[1]] = 0.7;
     let start = assemble(Leg::default(), &guess, &[]).expect("a start");
     let run = Simulation::new(Leg::default())

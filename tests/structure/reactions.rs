@@ -1,7 +1,7 @@
 //! Reactions in expressions: by Newton and Euler for each joint, where they are not unique, and beside the solver's multipliers.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
-use tests::{Random, assert_all_close, assert_close};
+use tests::{Random, assert_all_close, assert_close, at, at_rest};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{
     Error, Linearisation, Mechanism, Simulation, Solver, State, assemble, diagnose, lost_reactions,
@@ -297,11 +297,7 @@ fn newton_euler(angle: [f64; 3], rate: [f64; 3]) -> DVector<f64> {
 
 #[test]
 fn pins_of_a_four_bar_carry_what_newton_and_euler_say() {
-    let mut sketch = State {
-        t: 0.0,
-        q: vec![0.0; 9],
-        v: vec![0.0; 9],
-    };
+    let mut sketch = at_rest(&[0.0; 9]);
     for (bar, angle) in FourBar::BAR_ANGLE.into_iter().zip([1.0, 0.3, 1.4]) {
         sketch.q[bar] = angle;
     }
@@ -408,11 +404,7 @@ fn an_integrand_that_loses_its_reaction_names_the_constraints() {
 
 #[test]
 fn loads_that_are_not_determined_are_not_a_number() {
-    let mut start = State {
-        t: 0.0,
-        q: vec![0.0; 5],
-        v: vec![1.0, 0.0, 0.0, 0.0, 0.0],
-    };
+    let mut start = at(&[0.0; 5], &[1.0, 0.0, 0.0, 0.0, 0.0]);
     let run = Simulation::new(Table::default())
         .start(start.clone())
         .until(1.0)
@@ -503,11 +495,7 @@ fn reactions_are_those_of_ideal_constraints() {
 fn derivatives_go_through_reactions() {
     let (q, v) = (vec![0.8 * 0.6, -0.8 * 0.8], vec![2.4, 1.8]);
     let mechanism = Wire::default();
-    let state = State {
-        t: 0.0,
-        q: q.clone(),
-        v: v.clone(),
-    };
+    let state = at(&q, &v);
     let slopes = Linearisation::at(&mechanism, &state).unwrap();
     let mut solver = Solver::new(&mechanism, SolverOptions::default());
     let mut at = |q: &[f64], v: &[f64]| {

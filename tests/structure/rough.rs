@@ -1,7 +1,7 @@
 //! Friction by reactions in expressions, beside closed forms.
 
-use tests::{assert_all_close, assert_close};
-use ukcore::{Method, Simulation, State};
+use tests::{assert_all_close, assert_close, at};
+use ukcore::{Method, Simulation};
 
 ukcore::multibody! {
     /// A block on a rough incline, pushed uphill.
@@ -22,11 +22,7 @@ fn a_block_on_a_rough_incline_goes_up_slows_and_slides_back() {
     let (mu, slope, g) = (0.3, 0.5_f64, 9.81);
     for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         let v = vec![4.0 * slope.cos(), 4.0 * slope.sin(), 0.0];
-        let start = State {
-            t: 0.0,
-            q: vec![0.0, 0.0, slope],
-            v,
-        };
+        let start = at(&[0.0, 0.0, slope], &v);
         let run = Simulation::new(Incline::default())
             .method(method)
             .start(start)
@@ -76,11 +72,7 @@ fn a_bead_on_a_rough_wire_loses_speed_by_its_angle() {
             g,
             ..Wire::default()
         };
-        let start = State {
-            t: 0.0,
-            q: vec![0.0, -r],
-            v: vec![w.sqrt(), 0.0],
-        };
+        let start = at(&[0.0, -r], &[w.sqrt(), 0.0]);
         let run = Simulation::new(&mechanism)
             .tolerance(1e-11)
             .start(start)

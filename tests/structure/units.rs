@@ -2,7 +2,7 @@
 //! rank, the same redundant constraints, and takes the same steps over its singular positions. Where the factors are powers of two all
 //! this is the same bit for bit.
 
-use tests::assert_close;
+use tests::{assert_close, at};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, Solver, State};
 
@@ -165,11 +165,7 @@ fn crank() -> Case {
         mechanism: Crank::default().prepared(),
         parameters: &[LENGTH, LENGTH, MASS, INERTIA, MASS, GRAVITY, FORCE, RATE],
         coordinates: vec![LENGTH, LENGTH, NUMBER, NUMBER, LENGTH],
-        start: State {
-            t: 0.0,
-            q: vec![x, y, a, b, s],
-            v: vec![-y * w, x * w, w, db, ds],
-        },
+        start: at(&[x, y, a, b, s], &[-y * w, x * w, w, db, ds]),
     }
 }
 

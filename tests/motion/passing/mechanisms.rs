@@ -1,6 +1,7 @@
 //! Mechanisms with singular positions that cross branches, each with what its branch is.
 
 use models::FourBars;
+use tests::{at, at_rest};
 use ukcore::simulate::Sample;
 use ukcore::{Mechanism, Prepared, State};
 
@@ -174,9 +175,8 @@ pub(super) fn crank(l: f64, g: f64, w: f64) -> Case {
             ..Crank::default()
         }
         .prepared(),
-        start: State {
-            t: 0.0,
-            q: vec![
+        start: at(
+            &[
                 c / 2.0,
                 s / 2.0,
                 ANGLE,
@@ -185,7 +185,7 @@ pub(super) fn crank(l: f64, g: f64, w: f64) -> Case {
                 rod,
                 c + l * cr,
             ],
-            v: vec![
+            &[
                 -s / 2.0 * w,
                 c / 2.0 * w,
                 w,
@@ -194,7 +194,7 @@ pub(super) fn crank(l: f64, g: f64, w: f64) -> Case {
                 wr,
                 -s * w - l * sr * wr,
             ],
-        },
+        ),
         off: |s| {
             (s.q[6] - 2.0 * s.q[2].cos())
                 .abs()
@@ -207,11 +207,10 @@ pub(super) fn crank_pendulum(w: f64) -> Case {
     let ((s, c), (sb, cb)) = (ANGLE.sin_cos(), 0.4_f64.sin_cos());
     Case {
         mechanism: CrankPendulum::default().prepared(),
-        start: State {
-            t: 0.0,
-            q: vec![c, s, 2.0 * c, 2.0 * c + 0.7 * sb, -0.7 * cb],
-            v: vec![-s * w, c * w, -2.0 * s * w, -2.0 * s * w, 0.0],
-        },
+        start: at(
+            &[c, s, 2.0 * c, 2.0 * c + 0.7 * sb, -0.7 * cb],
+            &[-s * w, c * w, -2.0 * s * w, -2.0 * s * w, 0.0],
+        ),
         off: |s| (s.q[2] - 2.0 * s.q[0]).abs(),
     }
 }
@@ -219,11 +218,7 @@ pub(super) fn crank_pendulum(w: f64) -> Case {
 /// Cranks at one angle, couplers level: centres and velocities of `count` rods in turn crank, coupler, crank, ….
 pub(super) fn parallel(count: usize, w: f64) -> State {
     let (s, c) = ANGLE.sin_cos();
-    let mut state = State {
-        t: 0.0,
-        q: vec![0.0; 3 * count],
-        v: vec![0.0; 3 * count],
-    };
+    let mut state = at_rest(&vec![0.0; 3 * count]);
     for i in 0..count {
         let (share, along) = if i % 2 == 0 { (0.5, 0.0) } else { (1.0, 0.5) };
         state.q[i] = (i / 2) as f64 + along + share * c;
@@ -289,16 +284,15 @@ pub(super) fn kite(w: f64) -> Case {
     let (far, rate) = (ch + leg, -0.5 * sh - 0.5 * sh * ch / leg);
     Case {
         mechanism: Kite::default().prepared(),
-        start: State {
-            t: 0.0,
-            q: vec![c, s, far * ch, far * sh],
-            v: vec![
+        start: at(
+            &[c, s, far * ch, far * sh],
+            &[
                 -s * w,
                 c * w,
                 w * (rate * ch - 0.5 * far * sh),
                 w * (rate * sh + 0.5 * far * ch),
             ],
-        },
+        ),
         off: |s| {
             let angle: f64 = s.q[1].atan2(s.q[0]);
             let (sin, cos) = (0.5 * angle).sin_cos();
@@ -315,11 +309,7 @@ pub(super) fn plate(g: f64, w: f64) -> Case {
             ..Plate::default()
         }
         .prepared(),
-        start: State {
-            t: 0.0,
-            q: vec![0.8 * c, 0.8 * s, 0.0],
-            v: vec![-0.8 * s * w, 0.8 * c * w, 0.0],
-        },
+        start: at(&[0.8 * c, 0.8 * s, 0.0], &[-0.8 * s * w, 0.8 * c * w, 0.0]),
         off: |s| s.q[2].abs(),
     }
 }
@@ -345,11 +335,7 @@ pub(super) fn sphere(w: f64) -> Case {
     (v[1], v[2]) = (-0.8 * s * w, 0.8 * c * w);
     Case {
         mechanism: Sphere::default().prepared(),
-        start: State {
-            t: 0.0,
-            q: place(ANGLE),
-            v,
-        },
+        start: at(&place(ANGLE), &v),
         off: |s| {
             let pairs = across(&s.q[..3]).into_iter().zip(&s.q[3..]);
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

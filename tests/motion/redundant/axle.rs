@@ -43,11 +43,7 @@ fn turning(at: usize, a: f64, w: f64) -> State {
     let mut v = vec![0.0; 3];
     v[at] = w;
     v[(at + 2) % 3] = a * w;
-    State {
-        t: 0.0,
-        q: vec![0.0; 3],
-        v,
-    }
+    tests::at(&[0.0; 3], &v)
 }
 
 /// Both forms, with the place of the angle.

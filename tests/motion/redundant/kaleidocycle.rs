@@ -1,8 +1,8 @@
 //! A ring of six links with hinges twisted by 120° from one to the next: one degree of freedom, five redundant rows. Where all angles are
 //! half turns branches of the motion cross, and two rows at once depend on the others.
 
-use tests::assert_close;
-use ukcore::{Method, Simulation, State, assemble};
+use tests::{assert_close, at};
+use ukcore::{Method, Simulation, assemble};
 
 ukcore::multibody! {
     /// Five links that hang one on the other, the sixth is the ground.
@@ -41,11 +41,7 @@ fn a_ring_of_six_hinges_passes_where_two_rows_vanish_at_once() {
         ends[usize::from(!same)] = y;
     }
     let y = ends[0];
-    let guess = State {
-        t: 0.0,
-        q: vec![x, y, x, y, x],
-        v: vec![1.0, 0.0, 1.0, 0.0, 1.0],
-    };
+    let guess = at(&[x, y, x, y, x], &[1.0, 0.0, 1.0, 0.0, 1.0]);
     let start = assemble(&ring, &guess, &[]).expect("a state");
     let (mut found, until) = (Vec::new(), 20.0);
     let runs = [

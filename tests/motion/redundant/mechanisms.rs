@@ -1,5 +1,6 @@
 //! Mechanisms with more constraints than they need, which shows on the constraints alone.
 
+use tests::at_rest;
 use ukcore::State;
 
 ukcore::multibody! {
@@ -59,10 +60,6 @@ impl SpatialFourBar {
             let (s, c) = (0.5 * angle).sin_cos();
             (q[i], q[3 + i], q[9 + i], q[18 + i]) = (x, y, c, s);
         }
-        State {
-            t: 0.0,
-            q,
-            v: vec![0.0; 21],
-        }
+        at_rest(&q)
     }
 }

@@ -1,7 +1,8 @@
 //! Rows whose terms are as small as coordinates are near zero, beside rows with lengths of 1 that imply them: b = 0.7 a and c = 0.9 a in
 //! all, so that a falls as one mass.
 
-use ukcore::{Mechanism, Method, Simulation, State};
+use tests::at_rest;
+use ukcore::{Mechanism, Method, Simulation};
 
 macro_rules! small {
     ($($(#[$about:meta])* $name:ident { $($rows:tt)* })*) => {$(
@@ -48,11 +49,7 @@ fn check<M: Mechanism>(masses: [f64; 2]) {
         for size in [0.0, 1e-12, 1e-8, 1e-6, 1e-4, 1e-3] {
             for k in 0..if size > 0.0 { 6 } else { 1 } {
                 let a = size * (1.0 + 0.13 * f64::from(k));
-                let start = State {
-                    t: 0.0,
-                    q: vec![a, 0.7 * a, 0.9 * a],
-                    v: vec![0.0; 3],
-                };
+                let start = at_rest(&[a, 0.7 * a, 0.9 * a]);
                 let place = format!("{}, {masses:?}, {method}, {a:e}", M::SPEC.name);
                 let run = Simulation::new(mechanism.prepared())
                     .method(method)

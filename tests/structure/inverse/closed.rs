@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use tests::assert_close;
+use tests::{assert_close, at};
 use ukcore::{Mechanism, State, assemble, inverse, inverse_forces, kinematics};
 
 /// Bennett's linkage, four links with hinges askew, closed by a hinge of five rows that count as two; they all vanish or depend on each
@@ -184,11 +184,7 @@ fn what_rounding_leaves_open_has_no_effort() {
     let parallel = Parallel::default();
     for (angle, told) in [(1e-3, true), (1e-8, false), (1e-9, false)] {
         let posture = ukcore::studies::Posture {
-            state: State {
-                t: 0.0,
-                q: vec![angle, -angle, angle],
-                v: vec![3.0, -3.0, 3.0],
-            },
+            state: at(&[angle, -angle, angle], &[3.0, -3.0, 3.0]),
             acceleration: vec![0.0; 3],
         };
         match inverse_forces(&parallel, &posture, &["h1.angle"]) {

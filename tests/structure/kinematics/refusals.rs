@@ -1,6 +1,7 @@
 //! Sweeps that are refused: drives that do not decide a motion, starts that do not tell it, positions that do not go on.
 
 use super::{Arm, Press, Rods, refused};
+use tests::at_rest;
 use ukcore::{Mechanism, State, kinematics};
 
 #[test]
@@ -64,16 +65,7 @@ fn what_does_not_decide_a_motion_is_refused() {
         );
     }
     let arm = Arm::default().prepared();
-    let start = ukcore::assemble(
-        &arm,
-        &State {
-            t: 0.0,
-            q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
-            v: vec![0.0; 5],
-        },
-        &["a", "b"],
-    )
-    .unwrap();
+    let start = ukcore::assemble(&arm, &at_rest(&[0.3, 0.5, 2.5, 1.3, 6.0]), &["a", "b"]).unwrap();
     refused(
         kinematics(&arm, &start, &[("x", 0.0..4.0)], &[], 10),
         "leave 1 degree of freedom beside the sweep",
@@ -115,11 +107,7 @@ fn what_does_not_decide_a_motion_is_refused() {
         "`drives` do not go on smoothly from `a` = 3.141593: positions have a corner",
     );
     let rods = Rods::default();
-    let flat = State {
-        t: 0.0,
-        q: vec![0.0, 0.0, 0.0, 1.0, 0.0],
-        v: vec![0.0; 5],
-    };
+    let flat = at_rest(&[0.0, 0.0, 0.0, 1.0, 0.0]);
     refused(
         kinematics(&rods, &flat, &[("a", 0.0..1.0)], &[], 10),
         "is a singular position",
