@@ -6,7 +6,7 @@
 use crate::every::every_model;
 use models::{Model, SliderCrank, UChain, Visitor, visit};
 use nalgebra::{DMatrix, DVector};
-use tests::{Dense, Random, assert_all_close, pseudo_inverse, singular_values};
+use tests::{Dense, Random, apart, assert_all_close, largest, pseudo_inverse, singular_values};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Prepared, Solver, State};
@@ -291,10 +291,7 @@ fn what_a_solver_remembers_does_not_hide_rank_loss() {
                 "{case}, {away:e}"
             );
             let size = fresh.iter().fold(1.0, |s: f64, x| s.max(x.abs()));
-            let apart = found
-                .iter()
-                .zip(&fresh)
-                .fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()));
+            let apart = apart(&found, &fresh);
             assert!(
                 !here || apart <= 1e-9 * size,
                 "{case}, {away:e}: {apart:e} of {size:e}"
@@ -348,7 +345,7 @@ fn wrong_masses() {
                         let mut solver = Solver::new(&mechanism, by);
                         let solved = solver.acceleration(state.t, &state.q, &state.v, &mut printed);
                         solved.unwrap_or_else(|e| panic!("{case} passed: {e}"));
-                        let size = printed.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+                        let size = largest(&printed);
                         assert_all_close(&case, &out, &printed, 1e-12 * size);
                     }
                     let mut solver = Solver::new(&mechanism, SolverOptions::default());

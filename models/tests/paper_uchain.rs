@@ -3,7 +3,7 @@
 use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde_json::Value;
-use tests::{assert_all_close, assert_close, largest};
+use tests::{apart, assert_all_close, assert_close, largest};
 use ukcore::simulate::Direction;
 use ukcore::solver::SolverOptions;
 use ukcore::{Error, Event, Mechanism, Simulation, Solver, State, Trajectory};
@@ -138,9 +138,7 @@ fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
                 .until(1.5)
                 .unwrap_or_else(|e| panic!("{}", e.error));
             let last = run.last().expect("the run has an end");
-            let found = last.q.iter().chain(last.v);
-            let pairs = found.zip(expected.q.iter().chain(&expected.v));
-            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            apart(last.q, &expected.q).max(apart(last.v, &expected.v))
         })
         .collect();
     errors.sort_by(f64::total_cmp);

@@ -2,7 +2,7 @@
 
 use crate::every::{every_model, start};
 use nalgebra::{DMatrix, DVector};
-use tests::{Random, largest, pseudo_inverse};
+use tests::{Random, apart, largest, pseudo_inverse};
 use ukcore::manifold::Projector;
 use ukcore::{Prepared, State, assemble};
 
@@ -57,8 +57,7 @@ fn to_rounding_and_to_the_nearest_place() {
                 let assembled = assemble(mechanism, &guess, &[]);
                 let assembled = assembled.unwrap_or_else(|e| panic!("{place}: {e}"));
                 let bound = 1e3 * off * off + 256.0 * f64::EPSILON * speed;
-                let differences = assembled.v.iter().zip(&v).map(|(a, b)| a - b);
-                let difference = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
+                let difference = apart(&assembled.v, &v);
                 assert!(difference <= bound, "{place}: {difference:e}");
                 // Of all places on the constraints that one is nearest; the start is another one.
                 let away: Vec<f64> = before.iter().zip(&start.q).map(|(a, b)| a - b).collect();

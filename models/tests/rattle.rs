@@ -4,7 +4,7 @@ use models::{
     DoublePendulum, DoubleScottRussell, FishRobot, KnifeEdge, MasslessSpring, Model, Pendulum,
     RigidBody, SpringPendulum, StartOptions, UChain,
 };
-use tests::{at_rest, largest};
+use tests::{apart, at_rest, largest};
 use ukcore::manifold::Stabilisation;
 use ukcore::solver::Baumgarte;
 use ukcore::{Error, Method, Simulation, State, Trajectory};
@@ -31,8 +31,7 @@ fn error(run: &Trajectory, from: f64) -> f64 {
     let mech = Pendulum::default();
     let (angle, rate) = mech.swing(from, end.t);
     let (q, v) = mech.at_angle(angle, rate);
-    let pairs = end.q.iter().zip(&q).chain(end.v.iter().zip(&v));
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    apart(end.q, &q).max(apart(end.v, &v))
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Peaucellier's cell goes through the position in which its rhombus is flat by every method, also where steps of the size that accuracy
 //! asks for are much shorter than one that would go over it from afar.
 
+use tests::apart;
 use ukcore::{Mechanism, Method, Prepared, Simulation, State};
 
 ukcore::multibody! {
@@ -131,8 +132,7 @@ fn a_cell_of_points_starts_in_its_flat_position() {
             let there = run(start.clone(), 0.1).last().expect("an end").to_state();
             let back = run(there, -0.1);
             let flat = back.samples().next().expect("a sample");
-            let pairs = flat.q.iter().zip(&start.q);
-            let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let off = apart(flat.q, &start.q);
             assert!(off < 1e2 * tolerance, "{place}: {off:e}");
             let end = back.last().expect("an end");
             let off = end.q[6] - start.q[6];

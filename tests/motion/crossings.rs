@@ -1,7 +1,7 @@
 //! Starts in positions where branches of the motion cross: at rest and not pushed, or along a branch, they go on; pushed along none of
 //! them, or with a velocity along none, the position is named.
 
-use tests::{assert_close, at_rest};
+use tests::{assert_close, at_rest, cause};
 use ukcore::{Ensemble, Error, Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -63,17 +63,10 @@ ukcore::multibody! {
 
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
-fn source(error: &Error) -> (f64, &Error) {
-    match error {
-        Error::At { t, source, .. } => (*t, source),
-        other => panic!("{other}"),
-    }
-}
-
 /// The position is named where the run begins, by runs and ensembles, at any tolerance.
 fn is_named<M: Mechanism>(mechanism: &M, start: &State, name: &str) {
     let check = |label: String, error: &Error| {
-        let (t, told) = source(error);
+        let (t, told) = cause(error);
         let named = |names: &[String]| names.iter().any(|n| n.starts_with(name));
         assert!(
             t == start.t && matches!(told, Error::Singular { constraints } if named(constraints)),
@@ -139,7 +132,7 @@ fn rest_in_a_crossing_pushed_along_a_branch_goes_on() {
 fn contradictions_stay_contradictions() {
     let failure = Simulation::new(Torn::default()).start(at_rest(&[0.0; 2]));
     let failure = failure.until(0.5).expect_err("rows contradict each other");
-    let (_, told) = source(&failure.error);
+    let (_, told) = cause(&failure.error);
     assert!(
         matches!(told, Error::Inconsistent { constraints } if constraints.len() == 2),
         "{told}"

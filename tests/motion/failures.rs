@@ -1,7 +1,7 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use tests::{at, at_rest};
-use ukcore::simulate::{Failure, Switching};
+use tests::{at, at_rest, cause};
+use ukcore::simulate::Switching;
 use ukcore::{Error, Method, Simulation, State, lost_reactions};
 
 ukcore::multibody! {
@@ -43,15 +43,6 @@ ukcore::multibody! {
     }
 }
 
-/// Time and cause.
-#[track_caller]
-fn place(failure: &Failure) -> (f64, &Error) {
-    match &failure.error {
-        Error::At { t, source, .. } => (*t, source),
-        other => panic!("{other}"),
-    }
-}
-
 /// The two constraints of a contradiction, with residuals that are opposite, as far as they are in the same units.
 #[track_caller]
 fn contradiction(error: &Error) -> ([&str; 2], f64) {
@@ -74,7 +65,7 @@ fn constraints_that_come_apart_in_time_are_both_named_there() {
             .method(method)
             .start(start);
         let failure = run.until(1.0).unwrap_err();
-        let (t, error) = place(&failure);
+        let (t, error) = cause(&failure.error);
         let (names, residual) = contradiction(error);
         assert_eq!(names, ["line", "sine"]);
         // Of the accelerations 0 and −sin t, least squares leave half to each.
@@ -96,7 +87,7 @@ fn a_contradiction_that_begins_within_a_run_is_found_where_it_begins() {
             .start(start)
             .until(2.0)
             .unwrap_err();
-        let (t, error) = place(&failure);
+        let (t, error) = cause(&failure.error);
         let (names, residual) = contradiction(error);
         assert_eq!(names, ["early", "late"]);
         assert!((0.5..0.6).contains(&t), "{t}: {error}");
@@ -131,7 +122,7 @@ fn friction_that_brings_to_rest_is_named_with_the_remedy() {
                 .start(start)
                 .until(1e3)
                 .unwrap_err();
-            let (t, error) = place(&failure);
+            let (t, error) = cause(&failure.error);
             let Error::Chattering { terms, .. } = error else {
                 panic!("{error}");
             };
@@ -172,7 +163,7 @@ fn a_motion_that_ends_in_finite_time_ends_there_and_names_its_acceleration() {
                     let run = Simulation::new(Singular { pull, push }).start(start);
                     let run = run.method(method).max_steps(20_000);
                     let failure = run.until(sign * 10.0).unwrap_err();
-                    let (t, error) = place(&failure);
+                    let (t, error) = cause(&failure.error);
                     assert!((sign * t - end).abs() < 1e-6 * end, "{method}: {t}, {end}");
                     let Error::StepTooSmall { step, fastest } = error else {
                         panic!("{method}, {size}: {error}");
@@ -218,7 +209,7 @@ fn a_motion_that_ends_in_finite_time_does_so_late_too() {
                 .max_steps(20_000)
                 .until(t0 + 10.0)
                 .unwrap_err();
-            let (t, error) = place(&failure);
+            let (t, error) = cause(&failure.error);
             assert!((t - t0 - 1.0).abs() < 1e-6, "{method}: {t}");
             let Error::StepTooSmall {
                 fastest: Some((name, acceleration)),
@@ -274,7 +265,7 @@ fn fast_motions_are_too_late_and_end_nowhere() {
         let Err(failure) = run.until(t0 + 3.0) else {
             continue;
         };
-        let (_, error) = place(&failure);
+        let (_, error) = cause(&failure.error);
         let late = matches!(error, Error::TooLate { .. } | Error::Rounding { .. });
         assert!(late, "{x}, {v}, {t0:e}: {failure}");
     }
@@ -301,7 +292,7 @@ fn a_motion_too_fast_for_its_run_is_given_up_before_all_steps_are_used_up() {
             run.max_steps(max_steps).until(sign * turns * period)
         };
         let failure = run(1e12, 10_000_000).unwrap_err();
-        let (_, error) = place(&failure);
+        let (_, error) = cause(&failure.error);
         let Error::StepTooSmall { step, fastest } = error else {
             panic!("{error}");
         };
@@ -310,7 +301,7 @@ fn a_motion_too_fast_for_its_run_is_given_up_before_all_steps_are_used_up() {
         assert_eq!(failure.trajectory.work().steps, 100_000);
         // Few steps are used up; a run that gets on ends, however short its steps are.
         let failure = run(1e12, 1_000).unwrap_err();
-        let (_, error) = place(&failure);
+        let (_, error) = cause(&failure.error);
         assert_eq!(*error, Error::TooManySteps { steps: 1_000 });
         assert!(failure.to_string().contains("Radau5"), "{failure}");
         assert!(run(100.0, 10_000_000).is_ok());
@@ -324,7 +315,7 @@ fn steps_kept_short_on_purpose_do_not_chatter() {
         let run = Simulation::new(Block::default()).start(start);
         let run = run.max_step(max_step).max_steps(1000);
         let failure = run.until(0.1).unwrap_err();
-        let (_, error) = place(&failure);
+        let (_, error) = cause(&failure.error);
         assert_eq!(*error, Error::TooManySteps { steps: 1000 });
     }
 }
@@ -348,7 +339,7 @@ fn a_jump_is_told_by_its_constraint_level_and_time() {
             let start = at_rest(&[-place, 0.0]);
             let run = Simulation::new(mech).start(start).switching(switching);
             let failure = run.until(1.0).expect_err("it jumps");
-            let (t, cause) = self::place(&failure);
+            let (t, cause) = self::cause(&failure.error);
             assert!((t - 0.5).abs() < 1e-8, "{t}");
             match cause {
                 Error::Jump {
@@ -414,7 +405,7 @@ fn a_drive_that_comes_to_a_dead_centre_is_told() {
                 let run = Simulation::new(&linkage).start(start.clone());
                 let run = run.method(method).tolerance(tolerance).until(2.0 * end);
                 let failure = run.expect_err("a dead centre");
-                let (t, error) = place(&failure);
+                let (t, error) = cause(&failure.error);
                 let place = format!("{method}, {tolerance:e}, {w}: {error}");
                 assert!((t - end).abs() < 1e-8 * end, "{place}: {t}, not {end}");
                 let Error::DeadCentre {
@@ -473,7 +464,7 @@ fn a_path_with_a_kink_is_told() {
             let run = Simulation::new(Corner::default()).start(start);
             let run = run.method(method).tolerance(tolerance).until(3.0);
             let failure = run.expect_err("a corner");
-            let (_, error) = place(&failure);
+            let (_, error) = cause(&failure.error);
             assert!(
                 matches!(error, Error::Jump { level: "velocity", constraints } if constraints.len() == 1 && constraints[0].0 == "wire"),
                 "{method}, {tolerance:e}: {error}"
@@ -506,7 +497,7 @@ fn a_joint_without_mass_that_is_pulled_straight_is_named() {
                 .max_steps(100_000)
                 .until(2.0 * straight)
                 .unwrap_err();
-            let (t, error) = place(&failure);
+            let (t, error) = cause(&failure.error);
             assert!(
                 t <= straight && t > 0.9 * straight,
                 "{method}, {angle}: {failure}"

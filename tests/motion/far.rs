@@ -1,6 +1,7 @@
 //! Dead centres far off the origin, where places are rounded by more than the branches are apart: a crank and a rod of equal lengths are
 //! passed in the branch they came on, or the run is refused.
 
+use tests::{largest, worst};
 use ukcore::{Method, Simulation, Trajectory};
 
 ukcore::multibody! {
@@ -28,10 +29,9 @@ ukcore::multibody! {
 
 /// How far the slider is from where the crank has it at any sample.
 fn off(run: &Trajectory, far: f64) -> f64 {
-    let samples = run.samples();
-    samples
-        .map(|s| (s.q[Crank::C_X] - far - 2.0 * s.q[Crank::A_ANGLE].cos()).abs())
-        .fold(0.0, f64::max)
+    worst(run, |s| {
+        (s.q[Crank::C_X] - far - 2.0 * s.q[Crank::A_ANGLE].cos()).abs()
+    })
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn dead_centres_after_many_turns_are_passed() {
                     .until(0.6);
                 let run = run.unwrap_or_else(|failure| panic!("{label}: {failure}"));
                 let parted = run.output("parted").expect("it");
-                let parted = parted.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let parted = largest(&parted);
                 let drift = run.energy_drift();
                 assert!(
                     parted < 1e-7 && drift < drifts,

@@ -1,7 +1,7 @@
 //! Dry friction in the plane, v/|v| in each form in which it is written, straight through rest: closed forms of where a body stops, where
 //! it is held and how it goes on.
 
-use tests::{assert_all_close, assert_close, at};
+use tests::{assert_all_close, assert_close, at, cause, worst};
 use ukcore::simulate::{Direction, Ending, Sample, Switching};
 use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -137,19 +137,12 @@ fn slides(q: f64, v: f64, k: f64, t: f64) -> f64 {
     }
 }
 
-fn source(error: &Error) -> &Error {
-    match error {
-        Error::At { source, .. } => source,
-        other => other,
-    }
-}
-
 fn off(run: &Trajectory, along: [f64; 2], exact: impl Fn(f64) -> f64) -> f64 {
     let off = |s: Sample<'_>| {
         let x = exact(s.t);
         f64::hypot(s.q[0] - x * along[0], s.q[1] - x * along[1])
     };
-    run.samples().map(off).fold(0.0, f64::max)
+    worst(run, off)
 }
 
 const LINES: [[f64; 2]; 3] = [[1.0, 0.0], [0.0, -1.0], [0.6, 0.8]];
@@ -170,7 +163,7 @@ fn a_puck_that_comes_to_rest_stays_there_and_the_force_is_named() {
                     .method(method)
                     .tolerance(tolerance);
                 let failure = run.until(9.0).expect_err(&label);
-                let told = source(&failure.error);
+                let (_, told) = cause(&failure.error);
                 let both = ["force on `x`", "force on `y`"];
                 assert!(
                     matches!(told, Error::Chattering { terms, .. } if terms.iter().all(|t| both.contains(&&**t)) && terms.len() == 2),
@@ -197,7 +190,7 @@ fn a_puck_that_stops_late_at_a_tight_tolerance_is_told_the_same() {
                 let run = run(&mechanism, [0.6, 0.8], 0.0, v).method(method);
                 let run = run.tolerance(tolerance).at(Vec::new());
                 let failure = run.until(2.0 * v / F).expect_err(&label);
-                let told = source(&failure.error);
+                let (_, told) = cause(&failure.error);
                 let named = matches!(told, Error::Chattering { terms, .. } if terms.len() == 2);
                 assert!(named, "{label}: {told}");
             }
@@ -317,7 +310,7 @@ fn at_rest_there_is_no_direction_and_it_is_said() {
         for method in METHODS {
             let failure = run(&mechanism, LINES[0], q, 0.0).method(method).until(1.0);
             let failure = failure.expect_err(name);
-            let told = source(&failure.error);
+            let (_, told) = cause(&failure.error);
             assert!(
                 matches!(told, Error::NoDirection { terms } if terms.len() == 2),
                 "{name}, {method}: {told}"

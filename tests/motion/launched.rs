@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use tests::at;
+use tests::{apart, at, largest};
 use ukcore::{Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 use crate::met::Parallelogram;
@@ -156,8 +156,7 @@ fn runs_begin_on_crossings_and_little_before_them() {
                 let run = run.unwrap_or_else(|e| panic!("{place}: {e}"));
                 ends(&run, fallen, bound, 6_000, &place);
                 let first = run.samples().next().expect("a start");
-                let changed = first.v.iter().zip(&start.v);
-                let changed = changed.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+                let changed = apart(first.v, &start.v);
                 assert!(first.t == 0.0 && changed < bound, "{place}: {changed:e}");
                 let later = run.samples().nth(1).expect("a step");
                 assert!(later.t > 0.0, "{place}: a step before the start");
@@ -272,7 +271,7 @@ fn switches_have_their_zeros_on_crossings() {
                         between.v[0] - there.v[0],
                         sample.integrals[0] - there.integrals[0],
                     ];
-                    let off = off.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    let off = largest(&off);
                     assert!(off < bound, "{place}: {off:e} off at {}", sample.t);
                 }
                 let work = run.work().evaluations;

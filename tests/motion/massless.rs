@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use tests::{at, less_turns};
+use tests::{at, less_turns, worst};
 use ukcore::simulate::Sample;
 use ukcore::{Mechanism, Method, Prepared, Simulation, State};
 
@@ -141,7 +141,7 @@ fn carried(
         .tolerance(tolerance);
     let told = match run.max_steps(10_000).every(0.05).until(end) {
         Ok(run) => {
-            let off = run.samples().map(off).fold(0.0, f64::max);
+            let off = worst(&run, off);
             (off > (30.0 * tolerance).max(1e-7)).then(|| format!("off by {off:.1e}"))
         }
         Err(failure) => Some(failure.to_string()),

@@ -165,7 +165,11 @@ fn pair(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
         .prepared(),
         start: at(
             &[p, q, r].concat(),
-            &[vp, vq, vr].concat().iter().map(|v| w * v).collect::<Vec<_>>(),
+            &[vp, vq, vr]
+                .concat()
+                .iter()
+                .map(|v| w * v)
+                .collect::<Vec<_>>(),
         ),
         joints: |s| [[s.q[0], s.q[1]], [s.q[4], s.q[5]]],
         ground: d,

@@ -2,7 +2,7 @@
 //! and the constraint on its length mends that. Accelerations of the default solver against the same equations in 31 digits.
 
 use std::fmt::Debug;
-use tests::{Random, at, hunted, largest};
+use tests::{Random, apart, at, hunted, largest};
 use ukcore::equations::precise;
 use ukcore::manifold::Projector;
 use ukcore::solver::SolverOptions;
@@ -135,8 +135,7 @@ impl Found {
             panic!("{mechanism:?} at {q:?}: {error}");
         }
         let size = 1.0_f64.max(largest(&expected)).max(largest(v).powi(2));
-        let off = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-        let off = off.fold(0.0, f64::max) / size;
+        let off = apart(&found, &expected) / size;
         assert!(
             off < 1e-10,
             "{mechanism:?} at {q:?}: {found:?} is not {expected:?}"

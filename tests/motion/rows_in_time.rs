@@ -1,7 +1,7 @@
 //! Prescribed motions: rows that imply each other and contain the time, and times so late, or so fast a motion, that rounding of the time
 //! is more than the error that is asked for.
 
-use tests::at;
+use tests::{apart, at};
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State, Trajectory, assemble};
 
 macro_rules! driven {
@@ -198,12 +198,10 @@ fn rounding_of_the_time_is_no_jump() {
             let pair = [&expected, &found].map(|run| run.last().expect("it has an end"));
             // Rounding of the phase, and what the motion makes of it.
             let bound = 1e-7 + 1e3 * f64::EPSILON * t0.abs() * w;
-            let off = |a: &[f64], b: &[f64]| {
-                a.iter()
-                    .zip(b)
-                    .fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()))
-            };
-            let (q, v) = (off(pair[0].q, pair[1].q), off(pair[0].v, pair[1].v) / 10.0);
+            let (q, v) = (
+                apart(pair[0].q, pair[1].q),
+                apart(pair[0].v, pair[1].v) / 10.0,
+            );
             assert!(
                 q <= bound && v <= bound,
                 "{method} from {t0:e}, w = {w:e}: {q:e}, {v:e}"
@@ -280,8 +278,7 @@ fn tolerances_below_the_rounding_of_a_late_time_cost_no_flood() {
     for method in [Method::Dop853, Method::Dopri5] {
         let (expected, _) = angle(0.0, method);
         let (found, work) = angle(1e9, method);
-        let off = expected.iter().zip(&found).map(|(a, b)| (a - b).abs());
-        let off = off.fold(0.0, f64::max);
+        let off = apart(&expected, &found);
         assert!(off < 1e-6, "{method}: {off:e}");
         assert!(
             work.evaluations < 100_000 && work.rounded > 0,

@@ -1,7 +1,7 @@
 //! A mechanism whose lengths are 1e-9 … 1e9 times as large, with gravity as much larger, moves as it did: runs at the default absolute
 //! tolerance take the same steps but for rounding, whatever the coordinates are, and get to the same shapes.
 
-use tests::at_rest;
+use tests::{apart, at_rest};
 use ukcore::model::StartOptions;
 use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -177,12 +177,6 @@ fn shape(run: &Trajectory) -> Vec<f64> {
     run.output("shape").expect("declared")
 }
 
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let pairs = a.iter().zip(b);
-    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
-}
-
 #[test]
 fn runs_take_the_same_steps() {
     let cases = [
@@ -204,7 +198,7 @@ fn runs_take_the_same_steps() {
                 assert!(a.abs_diff(b) <= 2, "{name}: {a} and {b} attempts");
                 let [a_fallbacks, b_fallbacks] = [&one, &other].map(|run| run.work().fallbacks);
                 assert_eq!(a_fallbacks, b_fallbacks, "{name}");
-                let off = largest_difference(&shape(&one), &shape(&other));
+                let off = apart(&shape(&one), &shape(&other));
                 // A step that rounding decides on changes the error, not its size.
                 let bound = if a == b { 1e-9 } else { 10.0 * how.1 };
                 assert!(off < bound, "{name}: {off:e}");

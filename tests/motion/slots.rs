@@ -1,7 +1,7 @@
 //! A crank's pin in the slot of a lever, past the lever's pivot at a small distance: there the lever turns by half a turn where it would go
 //! straight on beside it. Long steps lead past several such places; late, the time is known no better than they are wide.
 
-use tests::{at, less_turns};
+use tests::{at, cause, less_turns, worst};
 use ukcore::{Error, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -85,8 +85,7 @@ fn long_steps_past_several_near_misses_take_none_for_straight() {
             .every(0.05)
             .until(10.0);
             let run = run.unwrap_or_else(|e| panic!("{miss:e}, {method}, {tolerance:e}, {w}: {e}"));
-            let off = run.samples().map(|s| off(r, s.q, 1e-3));
-            let off = off.fold(0.0, f64::max);
+            let off = worst(&run, |s| off(r, s.q, 1e-3));
             assert!(
                 off < 1e-2,
                 "{miss:e}, {method}, {tolerance:e}, {w}: {off:e}"
@@ -131,17 +130,14 @@ fn a_near_miss_too_near_for_the_tolerance_is_named() {
         .every(0.05)
         .until(10.0);
         let failure = run.expect_err("a tolerance below rounding");
-        let worst = failure.trajectory.samples().map(|s| off(r, s.q, 1e-3));
-        assert!(worst.fold(0.0, f64::max) < 1e-8);
-        let Error::At { t, source, .. } = &failure.error else {
-            panic!("{method}: {failure}");
-        };
+        assert!(worst(&failure.trajectory, |s| off(r, s.q, 1e-3)) < 1e-8);
+        let (t, source) = cause(&failure.error);
         assert!(
-            matches!(&**source, Error::Singular { constraints } if constraints == &["slot"]),
+            matches!(source, Error::Singular { constraints } if constraints == &["slot"]),
             "{method}: {source}"
         );
         // The lever meets it every turn, there first.
-        assert!((1.4..3.5).contains(t), "{method}: {t}");
+        assert!((1.4..3.5).contains(&t), "{method}: {t}");
     }
 }
 
@@ -175,10 +171,7 @@ fn driven_late_the_lever_follows() {
                     .until(t0 + 10.0);
                 let run =
                     run.unwrap_or_else(|e| panic!("{t0:e}, {method}, {tolerance:e}, {w}: {e}"));
-                let worst = run
-                    .samples()
-                    .map(|s| off(driven.r, &[crank(s.t), s.q[1]], 0.0));
-                let worst = worst.fold(0.0, f64::max);
+                let worst = worst(&run, |s| off(driven.r, &[crank(s.t), s.q[1]], 0.0));
                 assert!(
                     worst < bound,
                     "{t0:e}, {method}, {tolerance:e}, {w}: {worst:e}"
@@ -203,11 +196,8 @@ fn the_rounding_of_a_drive_is_no_jump() {
             .tolerance(1e-13)
             .until(10.4);
             if let Err(failure) = run {
-                let Error::At { source, .. } = &failure.error else {
-                    panic!("{failure}");
-                };
                 assert!(
-                    !matches!(**source, Error::Jump { .. }),
+                    !matches!(cause(&failure.error).1, Error::Jump { .. }),
                     "{r}, {w}: {failure}"
                 );
             }
@@ -227,10 +217,7 @@ fn steps_below_the_rounding_of_a_late_time_are_told() {
             .start(start)
             .until(t + 1024.0);
         let failure = run.expect_err("a first step below rounding");
-        let Error::At { source, .. } = &failure.error else {
-            panic!("{failure}");
-        };
-        let Error::TooLate { step, rounding } = **source else {
+        let (_, &Error::TooLate { step, rounding }) = cause(&failure.error) else {
             panic!("{t:e}, {w:e}: {failure}");
         };
         assert!(

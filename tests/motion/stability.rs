@@ -1,7 +1,7 @@
 //! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
 //! come out right by an oracle in 31 digits, or as an error with a name.
 
-use tests::{Random, hunted};
+use tests::{Random, apart, hunted, largest};
 use ukcore::manifold::Projector;
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{DoubleDouble, Scalar};
@@ -154,7 +154,7 @@ impl Exact {
             &wide(&state.v),
             &mut terms,
         );
-        let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
+        let size = largest(&state.q);
         let lengths = rods.l.iter().filter(|l| **l > 0.0);
         Exact {
             rounding: f64::EPSILON * size / lengths.fold(f64::INFINITY, |s, l| s.min(*l)),
@@ -382,7 +382,7 @@ impl Outcomes {
     }
 
     fn motion(&mut self, seed: u64, rods: Rods, state: State, time: f64) -> Result<(), String> {
-        let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
+        let size = largest(&state.q);
         let simulation = Simulation::new(rods.clone()).start(state);
         let simulation = simulation.tolerance(1e-10).max_steps(self.steps);
         match simulation.until(0.2 * time) {
@@ -527,7 +527,6 @@ fn rest_without_forces_is_a_motion_for_rattle() {
             .until(200.0 * step);
         let run = run.unwrap_or_else(|failure| panic!("{step}: {failure}"));
         let end = run.last().expect("an end");
-        let moved = end.q.iter().zip(&start.q).map(|(a, b)| (a - b).abs());
-        assert!(moved.fold(0.0, f64::max) < 1e-12, "{step}");
+        assert!(apart(end.q, &start.q) < 1e-12, "{step}");
     }
 }

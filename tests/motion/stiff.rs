@@ -2,7 +2,7 @@
 
 use models::{FishRobot, Model, Pendulum, SpringPendulum, StartOptions};
 use std::f64::consts::FRAC_PI_2;
-use tests::{assert_all_close, assert_close, at, at_rest};
+use tests::{apart, assert_all_close, assert_close, at, at_rest};
 use ukcore::simulate::Direction;
 use ukcore::{Event, Mechanism, Method, Simulation, State, Trajectory};
 
@@ -26,8 +26,7 @@ fn end(run: &Trajectory) -> State {
 
 /// Largest difference of coordinates and velocities.
 fn distance(a: &State, b: &State) -> f64 {
-    let pairs = a.q.iter().zip(&b.q).chain(a.v.iter().zip(&b.v));
-    pairs.fold(0.0, |d, (a, b)| d.max((a - b).abs()))
+    apart(&a.q, &b.q).max(apart(&a.v, &b.v))
 }
 
 fn spring(k: f64) -> SpringPendulum {

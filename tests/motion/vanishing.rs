@@ -1,9 +1,8 @@
 //! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it
 //! it turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
 
-use tests::at;
-use ukcore::simulate::Sample;
-use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State, Trajectory};
+use tests::{apart, at, cause, largest, worst};
+use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State};
 
 ukcore::multibody! {
     /// A bead on Cassini's oval: a lemniscate for e = 0, two loops for e < 0, one for e > 0.
@@ -94,11 +93,6 @@ fn simulation(
         .every(0.013)
 }
 
-fn worst(run: &Trajectory, off: impl Fn(Sample<'_>) -> f64) -> f64 {
-    let larger = |most: f64, x| if x <= most { most } else { x };
-    run.samples().map(off).fold(0.0, larger)
-}
-
 fn tolerances(method: Method) -> &'static [f64] {
     match method {
         Method::Rattle { .. } => &[1e-9],
@@ -133,7 +127,7 @@ fn a_bead_goes_straight_on_through_a_node() {
                         end.v[0] / speed,
                         end.v[1] / speed - 1.0,
                     ];
-                    let off = off.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+                    let off = largest(&off);
                     assert!(off < bound, "{place}, {rounds} rounds: {off:e}");
                 }
             }
@@ -187,8 +181,7 @@ fn samples_of_steps_over_many_nodes_are_those_of_the_motion() {
                     let samples = samples.unwrap_or_else(|failure| panic!("{place}: {failure}"));
                     let off = worst(&samples, |s| {
                         let a = 0.5 + speed * s.t;
-                        let off = [s.q[0] - a, s.q[1] + a, s.v[0] - speed, s.v[1] + speed];
-                        off.iter().fold(0.0, |most, x| x.abs().max(most))
+                        largest(&[s.q[0] - a, s.q[1] + a, s.v[0] - speed, s.v[1] + speed])
                     });
                     assert!(off < 1e-7, "{place}: {off:e}");
                 }
@@ -313,18 +306,12 @@ fn a_motion_over_an_apex_and_back_is_named() {
 
 /// `failure` is for the constraint called `name`, not after `t`.
 fn named(failure: &ukcore::simulate::Failure, name: &str, t: f64) {
-    let Error::At {
-        t: found, source, ..
-    } = &failure.error
-    else {
-        panic!("{failure}")
-    };
-    let Error::Singular { constraints } = &**source else {
+    let (found, Error::Singular { constraints }) = cause(&failure.error) else {
         panic!("{failure}")
     };
     assert_eq!(constraints, &[name], "{failure}");
     let last = failure.trajectory.last().expect("it has begun").t;
-    assert!(*found <= t && last <= t, "{failure}");
+    assert!(found <= t && last <= t, "{failure}");
 }
 
 /// Thrown up, a point under Appell's constraint is at rest for a moment, and may leave in any direction.
@@ -437,10 +424,9 @@ fn members_of_an_ensemble_end_at_rest_in_an_apex() {
         named(&alone.expect_err("rest in an apex"), "cone", 1e-2);
         let ends = Ensemble::new(members.to_vec()).tolerance(tolerance);
         let [rests, turns] = <[_; 2]>::try_from(ends.until(0.5)).expect("two members");
-        let Err(Error::At { t, source, .. }) = &rests else {
-            panic!("{tolerance:e}: {rests:?}")
-        };
-        assert!(*t <= 1e-2 && matches!(&**source, Error::Singular { .. }));
+        let rests = rests.expect_err("rest in an apex");
+        let (t, source) = cause(&rests);
+        assert!(t <= 1e-2 && matches!(source, Error::Singular { .. }));
         let end = turns.expect("it turns before the apex").end;
         let u = 0.9 / (0.25 * f64::sqrt(3.6)).cosh().powi(2);
         let off = (end.q[2] + 1.0 - u).abs();
@@ -542,10 +528,7 @@ fn members_of_an_ensemble_pass_nodes_and_end_before_apexes() {
         .unwrap_or_else(|_| panic!("two members"));
     assert!(beside.is_ok(), "{beside:?}");
     let error = through.expect_err("an apex");
-    let Error::At { source, .. } = &error else {
-        panic!("{error}")
-    };
-    assert!(matches!(&**source, Error::Singular { .. }), "{error}");
+    assert!(matches!(cause(&error).1, Error::Singular { .. }), "{error}");
 }
 
 ukcore::multibody! {
@@ -585,8 +568,7 @@ fn lengths_in_any_unit_are_as_good() {
     let (angle, evaluations) = run(1.0);
     for l in [1e-12, 1e-3, 1e2, 1e3, 1e4, 1e5, 1e12, 1e20] {
         let (other, work) = run(l);
-        let off = angle.iter().zip(&other).map(|(a, b)| (a - b).abs());
-        let off = off.fold(0.0, f64::max);
+        let off = apart(&angle, &other);
         assert!(off < 1e-9, "{l:e}: {off:e}");
         assert!(2 * work < 3 * evaluations, "{l:e}: {work} {evaluations}");
     }

@@ -15,8 +15,9 @@ pub use random::Random;
 
 use std::f64::consts::{PI, TAU};
 
-use ukcore::State;
 use ukcore::model::{Entry, StartOptions};
+use ukcore::simulate::Sample;
+use ukcore::{Error, State, Trajectory};
 
 /// The state (q, q̇) at t = 0.
 #[must_use]
@@ -80,6 +81,19 @@ pub fn assert_all_close(what: &str, found: &[f64], expected: &[f64], tolerance: 
     }
 }
 
+/// When a run has ended by an error, and why.
+///
+/// # Panics
+/// If the error does not say when.
+#[must_use]
+#[track_caller]
+pub fn cause(error: &Error) -> (f64, &Error) {
+    match error {
+        Error::At { t, source, .. } => (*t, source),
+        other => panic!("{other}"),
+    }
+}
+
 /// How many cases a hunt is to try: what the environment variable `HUNT` says, else `usual`.
 #[must_use]
 pub fn hunted(usual: u64) -> u64 {
@@ -87,10 +101,35 @@ pub fn hunted(usual: u64) -> u64 {
     asked.and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
+/// The largest of numbers that are not negative, and 0 of nothing; not a number where one of them is none.
+fn most(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(
+        0.0,
+        |most: f64, x| if most.is_nan() || x <= most { most } else { x },
+    )
+}
+
 /// Largest absolute value; 0 of nothing.
 #[must_use]
 pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
-    values.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+    most(values.into_iter().map(|x| x.abs()))
+}
+
+/// The largest difference between numbers and those in the same places of as many others.
+///
+/// # Panics
+/// Unless there are as many.
+#[must_use]
+#[track_caller]
+pub fn apart(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len(), "lengths");
+    most(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
+}
+
+/// How far samples of a run are `off` at most.
+#[must_use]
+pub fn worst(run: &Trajectory, off: impl Fn(Sample<'_>) -> f64) -> f64 {
+    most(run.samples().map(off))
 }
 
 /// An angle less the whole turns in it, between −π and π.

@@ -94,7 +94,6 @@ fn bars(l: f64, s: f64) -> [(&'static str, Prepared, Vec<f64>); 3] {
     ]
 }
 
-
 #[test]
 fn bars_that_are_long_enough_meet() {
     for l in SCALES {

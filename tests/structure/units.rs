@@ -2,7 +2,7 @@
 //! rank, the same redundant constraints, and takes the same steps over its singular positions. Where the factors are powers of two all
 //! this is the same bit for bit.
 
-use tests::{assert_close, at};
+use tests::{assert_close, at, cause};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, Solver, State};
 
@@ -462,11 +462,9 @@ fn rest_in_a_crossing_is_named_in_any_units() {
                 let Err(failure) = failure else {
                     panic!("{push}, {turn}, {factors:?}: branches cross");
                 };
-                let Error::At { t, source, .. } = &failure.error else {
-                    panic!("{failure}");
-                };
+                let (t, source) = cause(&failure.error);
                 assert!(
-                    *t == 0.0 && matches!(**source, Error::Singular { .. }),
+                    t == 0.0 && matches!(source, Error::Singular { .. }),
                     "{push}, {turn}, {factors:?}: {failure}"
                 );
             }

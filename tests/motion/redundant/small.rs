@@ -1,7 +1,7 @@
 //! Rows whose terms are as small as coordinates are near zero, beside rows with lengths of 1 that imply them: b = 0.7 a and c = 0.9 a in
 //! all, so that a falls as one mass.
 
-use tests::at_rest;
+use tests::{apart, at_rest};
 use ukcore::{Mechanism, Method, Simulation};
 
 macro_rules! small {
@@ -60,9 +60,8 @@ fn check<M: Mechanism>(masses: [f64; 2]) {
                 for sample in run.samples() {
                     let exact = a - 0.5 * fall * sample.t * sample.t;
                     let expected = [exact, 0.7 * exact, 0.9 * exact];
-                    let off = sample.q.iter().zip(expected).map(|(x, e)| (x - e).abs());
                     assert!(
-                        off.fold(0.0, f64::max) < 1e-7,
+                        apart(sample.q, &expected) < 1e-7,
                         "{place}: {:?} at {}",
                         sample.q,
                         sample.t
