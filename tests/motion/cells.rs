@@ -7,7 +7,7 @@ use ukcore::{Mechanism, Method, Prepared, Simulation, State};
 ukcore::multibody! {
     /// Peaucellier's cell of uniform bars, by their ends. Where the rhombus is flat its side points meet, two constraints follow from the
     /// others, and branches cross in which they stay together.
-    Cell {
+    pub Cell {
         params { s = 1.0 }
         coords { b[2], c[2], d[2], p[2] }
         let bar = |u, v| (sq(dot(u)) + inner(dot(u), dot(v)) + sq(dot(v))) / 3;
@@ -22,13 +22,13 @@ ukcore::multibody! {
             b = [0.15 * s * (1 + cos(angle)), 0.15 * s * sin(angle)];
             c near [0.35 * s, 0.35 * s]; d near [0.45 * s, -0.2 * s]; p near [0.533 * s, 0.17 * s]
         }
-        output { straight = p[0] / s }
+        output { shape = atan2(b[1], b[0] - 0.15 * s), straight = p[0] / s }
     }
 }
 
 ukcore::multibody! {
     /// The same of planar bodies.
-    BodyCell {
+    pub BodyCell {
         params { s = 1.0 }
         gravity { [0, -9.81 * s] }
         let long = 0.5 * s;
@@ -56,7 +56,7 @@ ukcore::multibody! {
             arm[0].angle near 0.71; arm[1].angle near -0.46; near_bar[0].angle near 2.2; near_bar[1].angle near -1.5;
             far_bar[0].angle near -0.4; far_bar[1].angle near 1.1
         }
-        output { straight = far_bar[0].at([short, 0])[0] / s }
+        output { shape = crank.angle, straight = far_bar[0].at([short, 0])[0] / s }
     }
 }
 

@@ -1,6 +1,7 @@
 //! A mechanism whose lengths are 1e-9 … 1e9 times as large, with gravity as much larger, moves as it did: runs at the default absolute
 //! tolerance take the same steps but for rounding, whatever the coordinates are, and get to the same shapes.
 
+use super::cells::{BodyCell, Cell};
 use tests::{apart, at_rest};
 use ukcore::model::StartOptions;
 use ukcore::{Ensemble, Mechanism, Method, Prepared, Simulation, State, Trajectory};
@@ -61,62 +62,6 @@ ukcore::multibody! {
         holonomic { upper: sq(p) = sq(s), lower: sq(r - p) = sq(0.4 * s) }
         start go { p[0] near s; p[1] = 0.0; r[0] near s; r[1] near -0.3 * s }
         output { shape = atan2(r[1] - p[1], r[0] - p[0]) }
-    }
-}
-
-ukcore::multibody! {
-    /// Peaucellier's cell of uniform bars, by their ends. Where the rhombus is flat its side points meet, two constraints follow from the
-    /// others, and branches cross in which they stay together.
-    Cell {
-        params { s = 1.0 }
-        coords { b[2], c[2], d[2], p[2] }
-        let bar = |u, v| (sq(dot(u)) + inner(dot(u), dot(v)) + sq(dot(v))) / 3;
-        let q = [0.15 * s, 0];
-        kinetic { (sq(dot(c)) + sq(dot(d)) + 0.5 * sq(dot(b))) / 3, bar(b, c), bar(b, d), bar(p, c), bar(p, d) }
-        potential { 9.81 * s * (3 * c[1] + 3 * d[1] + 2.5 * b[1] + 2 * p[1]) }
-        holonomic {
-            oc: sq(c) = sq(0.5 * s) od: sq(d) = sq(0.5 * s) qb: sq(b - q) = sq(0.15 * s)
-            bc: sq(b - c) = sq(0.3 * s) bd: sq(b - d) = sq(0.3 * s) pc: sq(p - c) = sq(0.3 * s) pd: sq(p - d) = sq(0.3 * s)
-        }
-        start go {
-            b = [0.15 * s * (1 + cos(0.6)), 0.15 * s * sin(0.6)];
-            c near [0.35 * s, 0.35 * s]; d near [0.45 * s, -0.2 * s]; p near [0.533 * s, 0.17 * s]
-        }
-        output { shape = atan2(b[1], b[0] - 0.15 * s), straight = p[0] / s }
-    }
-}
-
-ukcore::multibody! {
-    /// The same of planar bodies.
-    BodyCell {
-        params { s = 1.0 }
-        gravity { [0, -9.81 * s] }
-        let long = 0.5 * s;
-        let short = 0.3 * s;
-        bodies {
-            planar crank { mass: 1, inertia: sq(0.15 * s) / 12, centre: [0.075 * s, 0] }
-            for i in 0..2 {
-                planar arm[i] { mass: 2, inertia: sq(long) / 6, centre: [long / 2, 0] }
-                planar near_bar[i] { mass: 2, inertia: sq(short) / 6, centre: [short / 2, 0] }
-                planar far_bar[i] { mass: 2, inertia: sq(short) / 6, centre: [short / 2, 0] }
-            }
-        }
-        holonomic {
-            q: pin(ground.at([0.15 * s, 0]), crank.at([0, 0]))
-            for i in 0..2 {
-                o[i]: pin(ground.at([0, 0]), arm[i].at([0, 0]))
-                k[i]: pin(arm[i].at([long, 0]), near_bar[i].at([short, 0]))
-                l[i]: pin(arm[i].at([long, 0]), far_bar[i].at([0, 0]))
-                b[i]: pin(crank.at([0.15 * s, 0]), near_bar[i].at([0, 0]))
-            }
-            p: pin(far_bar[0].at([short, 0]), far_bar[1].at([short, 0]))
-        }
-        start go {
-            crank.angle = 0.6;
-            arm[0].angle near 0.71; arm[1].angle near -0.46; near_bar[0].angle near 2.2; near_bar[1].angle near -1.5;
-            far_bar[0].angle near -0.4; far_bar[1].angle near 1.1
-        }
-        output { shape = crank.angle, straight = far_bar[0].at([short, 0])[0] / s }
     }
 }
 
