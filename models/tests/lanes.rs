@@ -1,9 +1,8 @@
 //! Lanes against one mechanism alone: each lane holds other parameters and another state.
 
 use models::{Model, Pendulum, Visitor, visit};
-use tests::{Dense, Random, assert_all_close, largest};
+use tests::{Buffers, Dense, Random, assert_all_close, largest};
 use ukcore::lanes::{LaneSolver, Lanes};
-use ukcore::mechanism::Terms;
 use ukcore::solver::SolverOptions;
 use ukcore::{Error, Mechanism, Solver, State};
 use wide::{f64x4, f64x8};
@@ -49,19 +48,10 @@ fn solver<M: Mechanism, L: Lanes>(members: &[(M, State)]) -> (LaneSolver<L>, L, 
 fn check<M: Model, L: Lanes>() {
     let members = members::<M, L>(7);
     let (mut solver, t, q, v) = solver::<M, L>(&members);
-    let zeros = |len: usize| vec![L::from_f64(0.0); len];
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
-    let mut found = [zeros(n * n), zeros(n), zeros(n), zeros(m * n), zeros(m)];
-    let [mass, force, nonideal, jacobian, rhs] = &mut found;
-    let mut terms = Terms {
-        mass,
-        force,
-        nonideal,
-        jacobian,
-        rhs,
-    };
-    solver.prepared().dynamics(t, &q, &v, &mut terms);
-    let mut out = zeros(n);
+    let mut found = Buffers::new(n, m);
+    solver.prepared().dynamics(t, &q, &v, &mut found.terms());
+    let mut out = vec![L::from_f64(0.0); n];
     assert!(
         solver.acceleration(t, &q, &v, &mut out, |_| true),
         "{}",
@@ -76,7 +66,7 @@ fn check<M: Model, L: Lanes>() {
             dense.jacobian.as_slice(),
             dense.rhs.as_slice(),
         ];
-        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+        for (i, (found, expected)) in found.0.iter().zip(expected).enumerate() {
             let bound = 1e-14 * largest(expected).max(1.0);
             assert_all_close(
                 &format!("{}, term {i}", M::ID),

@@ -2,7 +2,7 @@
 
 use super::certificate::at;
 use models::SliderCrank;
-use tests::{Dense, Random};
+use tests::{Dense, Random, digits, straight};
 use ukcore::equations::precise;
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::solver::{Formula, SolverOptions};
@@ -36,19 +36,6 @@ fn off<M: Mechanism>(mechanism: &M, state: &State, a: &[f64], b: &[DoubleDouble]
     let size = norm(&mut b.iter().map(|b| b.to_f64())).max(norm(&mut free.iter().copied()));
     let difference = |(a, b): (&f64, &DoubleDouble)| (DoubleDouble::from_f64(*a) - *b).to_f64();
     norm(&mut a.iter().zip(b).map(difference)) / size
-}
-
-fn digits(x: &[f64]) -> Vec<DoubleDouble> {
-    x.iter().map(|x| DoubleDouble::from_f64(*x)).collect()
-}
-
-/// q̈ by the straight line in 31 digits.
-fn straight<M: Mechanism>(mechanism: &M, state: &State) -> Vec<DoubleDouble> {
-    let mut exact = digits(&vec![0.0; state.q.len()]);
-    let prepared = mechanism.prepared::<DoubleDouble>();
-    let zero = DoubleDouble::from_f64(0.0);
-    prepared.acceleration(zero, &digits(&state.q), &digits(&state.v), &mut exact);
-    exact
 }
 
 /// The solver and the dense solve beside each other, with the largest error of each.

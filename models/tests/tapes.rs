@@ -1,9 +1,8 @@
 //! Numbers that read emitted functions off their tapes get what compiled functions compute, to the last bit.
 
 use models::{Model, Visitor, visit};
-use tests::Random;
+use tests::{Buffers, Random};
 use ukcore::Mechanism;
-use ukcore::mechanism::Terms;
 use ukcore::scalar::{Scalar, Sloped};
 
 ukcore::multibody! {
@@ -86,26 +85,6 @@ fn compare<M: Mechanism>(name: &str, mech: &M, random: &mut Random) {
                 read,
                 compiled,
             );
-        }
-    }
-}
-
-/// M, Q, c, A and b.
-struct Buffers<S>([Vec<S>; 5]);
-
-impl<S: Scalar> Buffers<S> {
-    fn new(n: usize, m: usize) -> Self {
-        Buffers([n * n, n, n, n * m, m].map(|len| vec![S::from_f64(0.0); len]))
-    }
-
-    fn terms(&mut self) -> Terms<'_, S> {
-        let [mass, force, nonideal, jacobian, rhs] = &mut self.0;
-        Terms {
-            mass,
-            force,
-            nonideal,
-            jacobian,
-            rhs,
         }
     }
 }

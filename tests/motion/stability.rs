@@ -1,9 +1,8 @@
 //! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
 //! come out right by an oracle in 31 digits, or as an error with a name.
 
-use tests::{Random, apart, hunted, largest};
+use tests::{Buffers, Random, apart, digits, hunted, largest};
 use ukcore::manifold::Projector;
-use ukcore::mechanism::Terms;
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Simulation, Solver, State};
@@ -137,23 +136,11 @@ fn d(x: f64) -> DoubleDouble {
 impl Exact {
     fn of(rods: &Rods, state: &State) -> Self {
         let (n, m) = (2 * N, K);
-        let zeros = |len| vec![d(0.0); len];
-        let (mut mass, mut force, mut nonideal) = (zeros(n * n), zeros(n), zeros(n));
-        let (mut jacobian, mut rhs) = (zeros(m * n), zeros(m));
-        let wide = |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| d(*x)).collect() };
-        let mut terms = Terms {
-            mass: &mut mass,
-            force: &mut force,
-            nonideal: &mut nonideal,
-            jacobian: &mut jacobian,
-            rhs: &mut rhs,
-        };
-        rods.prepared::<DoubleDouble>().dynamics(
-            d(state.t),
-            &wide(&state.q),
-            &wide(&state.v),
-            &mut terms,
-        );
+        let mut terms = Buffers::new(n, m);
+        let (q, v) = (digits(&state.q), digits(&state.v));
+        rods.prepared()
+            .dynamics(d(state.t), &q, &v, &mut terms.terms());
+        let [mass, force, _, jacobian, rhs] = terms.0;
         let size = largest(&state.q);
         let lengths = rods.l.iter().filter(|l| **l > 0.0);
         Exact {

@@ -3,8 +3,7 @@
 
 use nalgebra::DMatrix;
 use tests::{Dense, Random, singular_values};
-use ukcore::mechanism::Terms;
-use ukcore::scalar::{DoubleDouble, Scalar};
+use ukcore::equations::precise;
 use ukcore::solver::SolverOptions;
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Solver, State};
@@ -46,71 +45,6 @@ ukcore::multibody! {
 }
 
 const N: usize = 5;
-
-/// q̈ in 31 digits, by elimination with pivoting of [M Aᵀ; A 0], brought to one scale.
-fn exact<M: Mechanism>(mechanism: &M, state: &State) -> Vec<DoubleDouble> {
-    let (n, m) = (M::SPEC.n(), M::SPEC.m());
-    let number = DoubleDouble::from_f64;
-    let digits = |x: &[f64]| -> Vec<DoubleDouble> { x.iter().copied().map(number).collect() };
-    let zeros = |len: usize| vec![number(0.0); len];
-    let [mut mass, mut force, mut nonideal] = [n * n, n, n].map(zeros);
-    let [mut jacobian, mut rhs] = [n * m, m].map(zeros);
-    let mut terms = Terms {
-        mass: &mut mass,
-        force: &mut force,
-        nonideal: &mut nonideal,
-        jacobian: &mut jacobian,
-        rhs: &mut rhs,
-    };
-    let prepared = mechanism.prepared::<DoubleDouble>();
-    let (q, v) = (digits(&state.q), digits(&state.v));
-    prepared.dynamics(number(state.t), &q, &v, &mut terms);
-    // x = s y with s = 1/√M for coordinates, and rows of A M^−½ of length 1.
-    let root = |i: usize| mass[i * n + i].to_f64().sqrt().recip();
-    let mut scale: Vec<f64> = (0..n).map(root).collect();
-    for row in 0..m {
-        let squares = (0..n).map(|i| (jacobian[i * m + row].to_f64() * scale[i]).powi(2));
-        scale.push(squares.sum::<f64>().sqrt().recip());
-    }
-    let size = n + m;
-    let mut k: Vec<Vec<DoubleDouble>> = vec![zeros(size + 1); size];
-    let scaled = |x: DoubleDouble, i: usize, j: usize| x * number(scale[i]) * number(scale[j]);
-    for i in 0..n {
-        for j in 0..n {
-            k[i][j] = scaled(mass[j * n + i], i, j);
-        }
-        for row in 0..m {
-            let a = scaled(jacobian[i * m + row], i, n + row);
-            (k[i][n + row], k[n + row][i]) = (a, a);
-        }
-        k[i][size] = (force[i] + nonideal[i]) * number(scale[i]);
-    }
-    for row in 0..m {
-        k[n + row][size] = rhs[row] * number(scale[n + row]);
-    }
-    for at in 0..size {
-        let largest = |a: &usize, b: &usize| {
-            let [a, b] = [a, b].map(|i| k[*i][at].to_f64().abs());
-            a.total_cmp(&b)
-        };
-        let pivot = (at..size).max_by(largest).expect("a row");
-        k.swap(at, pivot);
-        let (done, below) = k.split_at_mut(at + 1);
-        for row in below {
-            let factor = row[at] / done[at][at];
-            for (x, above) in row.iter_mut().zip(&done[at]) {
-                *x = *x - factor * *above;
-            }
-        }
-    }
-    let mut x = zeros(size);
-    for at in (0..size).rev() {
-        let known = (at + 1..size).map(|j| k[at][j] * x[j]);
-        let left = known.fold(k[at][size], |left, term| left - term);
-        x[at] = left / k[at][at];
-    }
-    (0..n).map(|i| x[i] * number(scale[i])).collect()
-}
 
 /// Tops on or near the constraints, some cranks level or upright, some couplers in line with their cranks.
 fn state(random: &mut Random, away: f64) -> State {
@@ -191,12 +125,9 @@ fn check<M: Mechanism + Default>(seed: u64, decades: &[f64]) -> (usize, usize) {
             continue;
         }
         accepted += 1;
-        let exact = exact(&mechanism, &state);
-        let expected: Vec<f64> = exact.iter().map(|x| x.to_f64()).collect();
-        let pairs = found.iter().zip(&exact);
-        let off: Vec<f64> = pairs
-            .map(|(a, b)| (DoubleDouble::from_f64(*a) - *b).to_f64())
-            .collect();
+        let expected = precise::accelerations(&mechanism, state.t, &state.q, &state.v)
+            .expect("cranks and couplers that are clear of each other");
+        let off: Vec<f64> = found.iter().zip(&expected).map(|(a, b)| a - b).collect();
         // M⁻¹ Q is not larger in the norm of M than with the diagonal of M, but for what rods share.
         let free = (0..2 * N).map(|i| dense.force[i].powi(2) / dense.mass[(i, i)]);
         let size = norm(&dense.mass, &expected).max(free.sum::<f64>().sqrt());

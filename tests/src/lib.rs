@@ -10,7 +10,7 @@ mod oracle;
 mod random;
 
 pub use linkage::FourBar;
-pub use oracle::{Dense, pseudo_inverse, singular_values};
+pub use oracle::{Buffers, Dense, digits, pseudo_inverse, singular_values, straight};
 pub use random::Random;
 
 use std::f64::consts::{PI, TAU};

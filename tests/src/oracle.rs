@@ -2,7 +2,47 @@
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::mechanism::Terms;
-use ukcore::{Prepared, State};
+use ukcore::scalar::{DoubleDouble, Scalar};
+use ukcore::{Mechanism, Prepared, State};
+
+/// Numbers of 31 digits.
+#[must_use]
+pub fn digits(x: &[f64]) -> Vec<DoubleDouble> {
+    x.iter().map(|x| DoubleDouble::from_f64(*x)).collect()
+}
+
+/// q̈ by the straight line in 31 digits.
+#[must_use]
+pub fn straight<M: Mechanism>(mechanism: &M, state: &State) -> Vec<DoubleDouble> {
+    let mut exact = digits(&vec![0.0; state.q.len()]);
+    let t = DoubleDouble::from_f64(state.t);
+    let (q, v) = (digits(&state.q), digits(&state.v));
+    mechanism.prepared().acceleration(t, &q, &v, &mut exact);
+    exact
+}
+
+/// M, Q, c, A and b in any numbers.
+pub struct Buffers<S>(pub [Vec<S>; 5]);
+
+impl<S: Scalar> Buffers<S> {
+    /// Zeros for n coordinates and m constraints.
+    #[must_use]
+    pub fn new(n: usize, m: usize) -> Self {
+        Buffers([n * n, n, n, n * m, m].map(|len| vec![S::from_f64(0.0); len]))
+    }
+
+    /// What emitted functions write to.
+    pub fn terms(&mut self) -> Terms<'_, S> {
+        let [mass, force, nonideal, jacobian, rhs] = &mut self.0;
+        Terms {
+            mass,
+            force,
+            nonideal,
+            jacobian,
+            rhs,
+        }
+    }
+}
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
 #[must_use]

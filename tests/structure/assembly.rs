@@ -5,7 +5,7 @@ mod mechanisms;
 
 use mechanisms::{Angles, Cranks, Hinge, Leg, Rows, Short, Sledge, Wave};
 use std::fmt::Debug;
-use tests::{Random, at, at_rest, hunted};
+use tests::{Random, at, at_rest, digits, hunted};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::{Error, Mechanism, Prepared, State, assemble};
 
@@ -113,11 +113,9 @@ impl Found {
 /// φ, then φ̇ and ψ, in 31 digits.
 fn residuals<M: Mechanism>(mechanism: &M, t: f64, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
     let precise: Prepared<DoubleDouble> = mechanism.prepared();
-    let number =
-        |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
-    let (t, q, v) = (DoubleDouble::from_f64(t), number(q), number(v));
-    let mut position = vec![DoubleDouble::from_f64(0.0); M::SPEC.holonomic];
-    let mut velocity = vec![DoubleDouble::from_f64(0.0); M::SPEC.m()];
+    let (t, q, v) = (DoubleDouble::from_f64(t), digits(q), digits(v));
+    let mut position = digits(&vec![0.0; M::SPEC.holonomic]);
+    let mut velocity = digits(&vec![0.0; M::SPEC.m()]);
     precise.residual(t, &q, &mut position);
     precise.residual_rate(t, &q, &v, &mut velocity);
     [position, velocity].map(|r| r.into_iter().map(DoubleDouble::to_f64).collect())
