@@ -2,20 +2,13 @@
 //! zeros.
 
 use models::{Model, Visitor, visit};
-use tests::{Dense, Random, assert_close, largest};
-use ukcore::{Mechanism, State};
+use tests::{Dense, Random, assert_all_close, difference, largest, rates, residuals};
+use ukcore::State;
 
 /// Random states and parameters tried per model.
 const STATES: usize = 10;
 /// Agreement asked for, relative to the largest entry.
 const ACCURACY: f64 = 1e-7;
-
-/// φ̇ and ψ at velocity `v`.
-fn rates<M: Mechanism>(model: &M, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
-    let mut rate = vec![0.0; M::SPEC.m()];
-    model.prepared().residual_rate(t, q, v, &mut rate);
-    rate
-}
 
 /// Runs `test` on a few random models at random states, which satisfy no constraint.
 fn random_states<M: Model>(seed: u64, mut test: impl FnMut(&M, &State)) {
@@ -27,16 +20,8 @@ fn random_states<M: Model>(seed: u64, mut test: impl FnMut(&M, &State)) {
     }
 }
 
-/// Derivative at 0 by central differences of order 4: error h⁴ f⁗′/30 and rounding/h, so h = 1e-4 leaves nine digits of functions
-/// that vary over 1, and eight of those that oscillate with 100 rad/s.
-fn difference(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    const H: f64 = 1e-4;
-    let at = |k: f64| f(k * H);
-    let (a, b, c, d) = (at(-2.0), at(-1.0), at(1.0), at(2.0));
-    (0..a.len())
-        .map(|i| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * H))
-        .collect()
-}
+/// The step of differences.
+const H: f64 = 1e-4;
 
 #[test]
 fn jacobian_and_rhs_by_differences() {
@@ -52,44 +37,25 @@ fn jacobian_and_rhs_by_differences() {
                 for j in 0..M::SPEC.n() {
                     let mut unit = vec![0.0; M::SPEC.n()];
                     unit[j] = 1.0;
-                    let column = difference(|h| {
-                        let mut phi = vec![0.0; M::SPEC.holonomic];
-                        model
-                            .prepared()
-                            .residual(state.t, &moved(&state.q, &unit, h), &mut phi);
-                        phi
-                    });
-                    for (i, slope) in column.iter().enumerate() {
-                        assert_close(
-                            &format!("{}: ∂φ[{i}]/∂q[{j}]", M::ID),
-                            dense.jacobian[(i, j)],
-                            *slope,
-                            ACCURACY * scale,
-                        );
-                    }
+                    let found: Vec<f64> = dense.jacobian.column(j).iter().copied().collect();
+                    let (bound, holonomic) = (ACCURACY * scale, &found[..M::SPEC.holonomic]);
                     let column =
-                        difference(|h| rates(model, state.t, &state.q, &moved(&state.v, &unit, h)));
-                    for (i, slope) in column.iter().enumerate() {
-                        assert_close(
-                            &format!("{}: A[{i}, {j}]", M::ID),
-                            dense.jacobian[(i, j)],
-                            *slope,
-                            ACCURACY * scale,
-                        );
-                    }
+                        difference(H, |h| residuals(model, state.t, &moved(&state.q, &unit, h)));
+                    let what = format!("{}: ∂φ/∂q[{j}]", M::ID);
+                    assert_all_close(&what, holonomic, &column, bound);
+                    let column = difference(H, |h| {
+                        rates(model, state.t, &state.q, &moved(&state.v, &unit, h))
+                    });
+                    let what = format!("{}: A, column {j}", M::ID);
+                    assert_all_close(&what, &found, &column, bound);
                 }
-                let slopes = difference(|h| {
+                let slopes = difference(H, |h| {
                     rates(model, state.t + h, &moved(&state.q, &state.v, h), &state.v)
                 });
                 let scale = largest(dense.rhs.iter()).max(1.0);
-                for (i, slope) in slopes.iter().enumerate() {
-                    assert_close(
-                        &format!("{}: b[{i}]", M::ID),
-                        dense.rhs[i],
-                        -slope,
-                        ACCURACY * scale,
-                    );
-                }
+                let rhs: Vec<f64> = slopes.iter().map(|slope| -slope).collect();
+                let what = format!("{}: b", M::ID);
+                assert_all_close(&what, dense.rhs.as_slice(), &rhs, ACCURACY * scale);
             });
         }
     }

@@ -5,18 +5,10 @@ use tests::{Random, assert_all_close, at, largest};
 use ukcore::simulate::{Member, Switching};
 use ukcore::{Ensemble, Error, Simulation, State};
 
-/// Members with other parameters and starts.
+/// Members with other parameters and starts, at times of their own, so that some go forward and some backward.
 fn members<M: Model>(count: usize) -> Vec<(M, State)> {
     let mut random = Random::new(11);
-    let mut member = || loop {
-        let mechanism: M = random.parameters(0.02);
-        if mechanism.default_start().is_ok() {
-            // At times of its own, so that some go forward and some backward.
-            let state = random.consistent_state(&mechanism, 0.02);
-            break (mechanism, state);
-        }
-    };
-    (0..count).map(|_| member()).collect()
+    (0..count).map(|_| random.member()).collect()
 }
 
 fn on_threads(threads: usize, ensemble: &Ensemble, t_end: f64) -> Vec<Result<Member, Error>> {

@@ -1,40 +1,13 @@
 //! Exact derivatives of the accelerations against differences of them, and against closed forms.
 
 use models::{Model, Pendulum, Visitor, visit};
-use tests::{Random, assert_all_close, at, largest};
+use tests::{Random, accelerations, assert_all_close, at, difference, largest};
 use ukcore::manifold::Projector;
 use ukcore::solver::SolverOptions;
-use ukcore::{Error, Linearisation, Mechanism, Solver, State};
+use ukcore::{Error, Linearisation, Solver, State};
 
 /// Truncation and rounding of differences of fourth order, relative to the largest derivative.
 const ACCURACY: f64 = 1e-7;
-
-fn acceleration<M: Mechanism>(mechanism: &M, state: &State) -> Vec<f64> {
-    let mut out = vec![0.0; M::SPEC.n()];
-    Solver::new(mechanism, SolverOptions::default())
-        .acceleration(state.t, &state.q, &state.v, &mut out)
-        .unwrap_or_else(|e| panic!("{}: {e}", M::SPEC.name));
-    out
-}
-
-/// df/dh at 0, to fourth order.
-fn difference(h: f64, f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| f(k * h));
-    (0..a.len())
-        .map(|i| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * h))
-        .collect()
-}
-
-/// A model with other parameters, and a consistent state.
-fn member<M: Model>(random: &mut Random) -> (M, State) {
-    loop {
-        let mechanism: M = random.parameters(0.02);
-        if mechanism.default_start().is_ok() {
-            let state = random.consistent_state(&mechanism, 0.02);
-            return (mechanism, state);
-        }
-    }
-}
 
 /// Whether some constraints follow from others at the default start.
 fn redundant<M: Model>() -> bool {
@@ -54,15 +27,15 @@ fn columns_are_differences_of_the_accelerations() {
             let mut random = Random::new(5);
             // Off the manifold, where most columns lead, redundant constraints are not redundant: see the next test.
             for _ in 0..if redundant::<M>() { 0 } else { 3 } {
-                let (mechanism, state) = member::<M>(&mut random);
+                let (mechanism, state) = random.member::<M>();
                 let found = Linearisation::at(&mechanism, &state)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let n = M::SPEC.n();
-                let scale = largest(&acceleration(&mechanism, &state)).max(1.0);
+                let scale = largest(&accelerations(&mechanism, &state)).max(1.0);
                 assert_all_close(
                     M::ID,
                     &found.acceleration,
-                    &acceleration(&mechanism, &state),
+                    &accelerations(&mechanism, &state),
                     1e-11 * scale,
                 );
                 let check = |name: &str, expected: Vec<f64>| {
@@ -75,7 +48,7 @@ fn columns_are_differences_of_the_accelerations() {
                         difference(1e-3, |h| {
                             let mut state = state.clone();
                             part(&mut state)[i] += h;
-                            acceleration(&mechanism, &state)
+                            accelerations(&mechanism, &state)
                         })
                     };
                     check(name, moved(|s| &mut s.q));
@@ -86,7 +59,7 @@ fn columns_are_differences_of_the_accelerations() {
                     let expected = difference(1e-4 * value.abs().max(1e-2), |h| {
                         let mut mechanism = mechanism.clone();
                         mechanism.set_parameter(i, value + h);
-                        acceleration(&mechanism, &state)
+                        accelerations(&mechanism, &state)
                     });
                     check(parameter.name, expected);
                 }
@@ -94,7 +67,7 @@ fn columns_are_differences_of_the_accelerations() {
                 let expected = difference(1e-4, |h| {
                     let mut state = state.clone();
                     state.t += h;
-                    acceleration(&mechanism, &state)
+                    accelerations(&mechanism, &state)
                 });
                 check("t", expected);
                 assert_eq!(found.by_position.len(), n * n);
@@ -111,7 +84,7 @@ fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
         fn visit<M: Model>(&mut self) {
             let mut random = Random::new(6);
             for _ in 0..3 {
-                let (mechanism, state) = member::<M>(&mut random);
+                let (mechanism, state) = random.member::<M>();
                 let found = Linearisation::at(&mechanism, &state)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let n = M::SPEC.n();
@@ -129,7 +102,7 @@ fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
                 let h = 2e-4;
                 let dq = difference(h, |h| at(h).q);
                 let dv = difference(h, |h| at(h).v);
-                let expected = difference(h, |h| acceleration(&mechanism, &at(h)));
+                let expected = difference(h, |h| accelerations(&mechanism, &at(h)));
                 let mut sum = vec![0.0; n];
                 for (d, column) in dq
                     .iter()

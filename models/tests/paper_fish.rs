@@ -2,7 +2,7 @@
 
 use models::{FishRobot, Model, StartOptions};
 use std::f64::consts::PI;
-use tests::{Dense, Random, assert_all_close, assert_close, largest};
+use tests::{Dense, Random, assert_all_close, assert_close, largest, rates, residuals};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Simulation, Solver, State, Trajectory, assemble};
 
@@ -142,10 +142,7 @@ fn start_is_consistent() {
         assert_all_close("under way, q", &found.q, &expected.q, 2e-15);
         assert_all_close("under way, v", &found.v, &expected.v, 1e-14);
         for State { t, q, v } in [&found, &expected] {
-            let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
-            let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
-            fish.prepared().residual(*t, q, &mut phi);
-            fish.prepared().residual_rate(*t, q, v, &mut phi_dot);
+            let (phi, phi_dot) = (residuals(&fish, *t, q), rates(&fish, *t, q, v));
             assert!(
                 largest(&phi) < 1e-15 && largest(&phi_dot) < 1e-14,
                 "{phi:?} {phi_dot:?}"

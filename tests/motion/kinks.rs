@@ -334,11 +334,7 @@ fn random_motions_are_those_of_short_steps_across() {
     let mut arrived = 0;
     for _ in 0..40 {
         let mech = Broken::default();
-        let guess = State {
-            t: random.signed(),
-            q: random.vector(4),
-            v: random.vector(4),
-        };
+        let guess = random.state(4);
         let start = assemble(&mech, &guess, &["x", "y", "z"]).expect("w takes it up");
         let run = |switching, tolerance| {
             Simulation::new(mech.clone())

@@ -1,21 +1,12 @@
 //! Bodies of the tree that lack moments, or are without mass: rods, points and links that only join others. The angles of their joints move
 //! what has some.
 
-use super::tree::outputs;
 use std::f64::consts::FRAC_PI_2;
-use tests::{Random, assert_all_close, at};
+use tests::{Random, accelerations, assert_all_close, at, outputs};
 use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Solver, State};
+use ukcore::{Solver, State};
 
 /// q̈ of a mechanism with its default parameters.
-fn accelerations<M: Mechanism>(q: &[f64], v: &[f64]) -> Vec<f64> {
-    let mut found = vec![0.0; q.len()];
-    Solver::new(M::default(), SolverOptions::default())
-        .acceleration(0.0, q, v, &mut found)
-        .expect("accelerations");
-    found
-}
-
 /// Two angles on a cross, about y and then about z, and their rates.
 fn turned(random: &mut Random) -> State {
     at(
@@ -73,13 +64,8 @@ fn thin_rods_hang_on_crosses() {
             -a.cos() * b.cos() * da + a.sin() * b.sin() * db,
         ]
         .map(|x| l * x);
-        assert_all_close(
-            "the end",
-            &outputs::<Rod>(&tree.prepared(), &state),
-            &p,
-            1e-14,
-        );
-        let found = accelerations::<Rod>(&state.q, &state.v);
+        assert_all_close("the end", &outputs(&tree, &state), &p, 1e-14);
+        let found = accelerations(&tree, &state);
         // J = m l²/3, of which the weight is m g l/2.
         assert_all_close(
             "accelerations",
@@ -87,7 +73,7 @@ fn thin_rods_hang_on_crosses() {
             &swinging(&state, 1.5 * g / l),
             1e-11,
         );
-        let free = accelerations::<RodEnd>(&p, &v);
+        let free = accelerations(&RodEnd::default(), &at(&p, &v));
         let along = [
             -a.sin() * b.cos() * found[0]
                 - a.cos() * b.sin() * found[1]
@@ -153,13 +139,13 @@ fn links_of_the_tree_need_no_mass() {
     let bob = Bob::default();
     for _ in 0..20 {
         let state = turned(&mut random);
-        let found = accelerations::<Bob>(&state.q, &state.v);
+        let found = accelerations(&Bob::default(), &state);
         assert_all_close("a bob", &found, &swinging(&state, bob.g / bob.l), 1e-11);
         let [q, v] = [random.vector(3), random.vector(3)];
-        let expected = accelerations::<Rates>(&q, &v);
+        let expected = accelerations(&Rates::default(), &at(&q, &v));
         assert_all_close(
             "gimbals",
-            &accelerations::<Gimbals>(&q, &v),
+            &accelerations(&Gimbals::default(), &at(&q, &v)),
             &expected,
             1e-11,
         );

@@ -1,9 +1,9 @@
 //! Light coordinates that constraints tie to heavy ones: no fast motion, and accelerations that are small differences of large terms.
 
-use tests::{Random, at, largest, straight};
+use tests::{Random, at, largest, outputs, straight};
 use ukcore::scalar::DoubleDouble;
 use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Simulation, Solver, State, lost_reactions};
+use ukcore::{Simulation, Solver, State, lost_reactions};
 
 ukcore::multibody! {
     /// A flywheel, and a yoke on a spring that a pin of it moves.
@@ -201,8 +201,7 @@ fn reactions_of_a_yoke_without_mass() {
             ..Yoke::default()
         };
         let state = yoke.start();
-        let mut load = [0.0];
-        yoke.prepared().outputs(0.0, &state.q, &state.v, &mut load);
+        let load = outputs(&yoke, &state);
         // m ẍ = −k (x − rest) + λ.
         let expected = m * yoke.sliding(0.5, 20.0) + yoke.k * (state.q[1] - yoke.rest);
         assert!(
@@ -226,15 +225,12 @@ fn a_body_without_mass_is_told_as_what_reactions_lack() {
     // The coefficient of yoke.x in the slot is no number, so the reaction is divided by its inertia: where it has none, that is told.
     let told = lost_reactions(&scotch, &state).expect("not a number");
     assert!(told.starts_with("there is no inertia in `yoke"), "{told}");
-    let mut load = [0.0];
     for my in [1e-30, 1e-12, 1e-6] {
         let scotch = Scotch {
             my,
             ..scotch.clone()
         };
-        scotch
-            .prepared()
-            .outputs(0.0, &state.q, &state.v, &mut load);
+        let load = outputs(&scotch, &state);
         let expected = scotch.k * (scotch.r * c - 0.1);
         let off = load[0].abs() - expected;
         assert!(

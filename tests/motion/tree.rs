@@ -2,7 +2,8 @@
 //! joints stand.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
-use tests::{Random, assert_all_close, assert_close, at, at_rest};
+use tests::{Random, assert_all_close, assert_close, at, at_rest, outputs};
+use ukcore::simulate::Sample;
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Prepared, Simulation, Solver, State, Trajectory, assemble};
 
@@ -131,23 +132,11 @@ fn random_state<M: Mechanism>(random: &mut Random) -> State {
     State { t: 0.7, q, v }
 }
 
-pub(super) fn outputs<M: Mechanism>(mechanism: &Prepared, state: &State) -> Vec<f64> {
-    let mut out = vec![0.0; M::SPEC.outputs.len()];
-    mechanism.outputs(state.t, &state.q, &state.v, &mut out);
-    out
-}
-
 /// The outputs at all samples.
 fn put_out<M: Mechanism>(run: &Trajectory) -> Vec<Vec<f64>> {
     let mechanism = M::default().prepared();
-    let states = run.samples().map(|sample| State {
-        t: sample.t,
-        q: sample.q.to_vec(),
-        v: sample.v.to_vec(),
-    });
-    states
-        .map(|state| outputs::<M>(&mechanism, &state))
-        .collect()
+    let states = run.samples().map(Sample::to_state);
+    states.map(|state| outputs(&mechanism, &state)).collect()
 }
 
 /// The state of bodies in space with coordinates of their own, from what is put out of each.
@@ -192,7 +181,7 @@ fn check<T: Mechanism, O: Mechanism>(freedoms: usize, spatial: bool) {
     let (tree, bodies): (Prepared, Prepared) = (T::default().prepared(), O::default().prepared());
     for _ in 0..10 {
         let state = random_state::<T>(&mut random);
-        let out = outputs::<T>(&tree, &state);
+        let out = outputs(&tree, &state);
         let same = own(state.t, &out);
         let (h, m) = (O::SPEC.holonomic, O::SPEC.constraints.len());
         let (mut phi, mut rate) = (vec![0.0; h], vec![0.0; m]);
@@ -232,7 +221,7 @@ fn check<T: Mechanism, O: Mechanism>(freedoms: usize, spatial: bool) {
             let (q, v) = path
                 .map(|((q, v), a)| (q + h * (v + 0.5 * h * a), v + h * a))
                 .unzip();
-            outputs::<T>(&tree, &State { t: state.t, q, v })
+            outputs(&tree, &State { t: state.t, q, v })
         };
         let h = 1e-3;
         let [two, one, back, far] = [2.0 * h, h, -h, -2.0 * h].map(at);
@@ -331,7 +320,7 @@ fn an_arm_of_12_hinges_accelerates_alike_in_both_sets_of_coordinates() {
         .prepared()
         .acceleration(0.0, &state.q, &state.v, &mut a);
     assert!(safe > 0.5, "{safe}");
-    let own = own_state(0.0, &outputs::<Arm>(&Arm::default().prepared(), &state));
+    let own = own_state(0.0, &outputs(&Arm::default(), &state));
     let mut solver = Solver::new(OwnArm::default(), SolverOptions::default());
     let solution = solver.solve(0.0, &own.q, &own.v).expect("accelerations");
     assert_eq!(solution.degrees_of_freedom, 12);
@@ -533,10 +522,10 @@ macro_rules! held {
                 let Ok(state) = assemble($tree::default(), &random_state::<$tree>(&mut random), &[]) else {
                     continue;
                 };
-                let out = outputs::<$tree>(&$tree::default().prepared(), &state);
+                let out = outputs(&$tree::default(), &state);
                 let (bodies, force) = out.split_at($n * width);
                 let same = own(state.t, bodies);
-                let expected = outputs::<$own>(&$own::default().prepared(), &same);
+                let expected = outputs(&$own::default(), &same);
                 assert!(expected.iter().any(|x| x.abs() > 1e-3), "{expected:?}");
                 assert_all_close("force", force, &expected, 1e-9);
                 found += 1;

@@ -8,10 +8,12 @@ mod linkage;
 mod machines;
 mod oracle;
 mod random;
+mod values;
 
 pub use linkage::FourBar;
 pub use oracle::{Buffers, Dense, digits, pseudo_inverse, singular_values, straight};
 pub use random::Random;
+pub use values::{accelerations, difference, outputs, rates, residuals};
 
 use std::f64::consts::{PI, TAU};
 

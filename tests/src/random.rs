@@ -31,6 +31,27 @@ impl Random {
         (0..n).map(|_| self.signed()).collect()
     }
 
+    /// A state with t, coordinates and velocities uniform in [−1, 1).
+    pub fn state(&mut self, n: usize) -> State {
+        let t = self.signed();
+        State {
+            t,
+            q: self.vector(n),
+            v: self.vector(n),
+        }
+    }
+
+    /// A model with other parameters and a consistent state, each near what it is by default: not all parameters admit the default start.
+    pub fn member<M: Model>(&mut self) -> (M, State) {
+        loop {
+            let mechanism: M = self.parameters(0.02);
+            if mechanism.default_start().is_ok() {
+                let state = self.consistent_state(&mechanism, 0.02);
+                return (mechanism, state);
+            }
+        }
+    }
+
     /// The model with each parameter changed by up to `part` of its default value.
     pub fn parameters<M: Model>(&mut self, part: f64) -> M {
         let mut mechanism = M::default();

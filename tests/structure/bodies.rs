@@ -1,7 +1,7 @@
 //! Bodies: what acts on them does the power that the energy gains, and inertias that none has are refused.
 
 use super::joints::{random_state, solved};
-use tests::{Random, assert_close, at_rest};
+use tests::{Random, assert_close, at_rest, outputs};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Simulation, Solver, State, assemble};
 
@@ -70,18 +70,13 @@ fn power_of_forces_is_the_rate_of_the_energy() {
         // Of fourth order.
         let rate =
             (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
-        let mut power = vec![0.0; 2];
-        mechanism.outputs(state.t, &state.q, &state.v, &mut power);
+        let power = outputs(&mechanism, state);
         assert_close(M::SPEC.name, rate, power[0] + power[1], 1e-7);
         assert!(power.iter().all(|p| p.abs() > 1e-3), "something acts");
     }
     let mut random = Random::new(12);
     for _ in 0..20 {
-        check::<Pushed>(&State {
-            t: random.signed(),
-            q: random.vector(6),
-            v: random.vector(6),
-        });
+        check::<Pushed>(&random.state(6));
         check::<Shoved>(&random_state(&mut random, 2));
     }
 }
@@ -152,11 +147,7 @@ fn forces_act_on_the_point_of_the_body_that_is_there() {
     }
     let mut random = Random::new(13);
     for _ in 0..20 {
-        same::<Touched, TouchedByMoments>(&State {
-            t: random.signed(),
-            q: random.vector(6),
-            v: random.vector(6),
-        });
+        same::<Touched, TouchedByMoments>(&random.state(6));
         let whole = random_state(&mut random, 1);
         let state = State {
             q: [whole.q, random.vector(1)].concat(),

@@ -2,9 +2,8 @@
 
 use nalgebra::Vector4;
 use std::collections::BTreeSet;
-use tests::{Dense, Random, assert_all_close};
-use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Prepared, Simulation, Solver, State, assemble};
+use tests::{Dense, Random, accelerations, assert_all_close, outputs};
+use ukcore::{Mechanism, Prepared, Simulation, State, assemble};
 
 /// A spatial linkage of one freedom on a trunk, closed at the end of its coupler, and what acts between its bodies.
 macro_rules! linkage_in_space {
@@ -130,16 +129,9 @@ fn states(prepared: &Prepared, held: &[&str]) -> Vec<State> {
 fn alike(carried: &impl Mechanism, written: &impl Mechanism, held: &[&str]) {
     let both: [Prepared; 2] = [carried.into(), written.into()];
     for state in states(&both[0], held) {
-        let [found, expected] = both.each_ref().map(|prepared| {
-            let mut solver = Solver::new(prepared.clone(), SolverOptions::default());
-            let mut all = vec![0.0; state.q.len()];
-            let told = solver.acceleration(state.t, &state.q, &state.v, &mut all);
-            told.expect("accelerations");
-            let mut pull = vec![0.0; prepared.spec().outputs.len()];
-            prepared.outputs(state.t, &state.q, &state.v, &mut pull);
-            all.extend(pull);
-            all
-        });
+        let [found, expected] = both
+            .each_ref()
+            .map(|prepared| [accelerations(prepared, &state), outputs(prepared, &state)].concat());
         assert_all_close("accelerations and reaction", &found, &expected, 1e-9);
         let [found, expected] = both.each_ref().map(|prepared| {
             let run = Simulation::new(prepared.clone()).tolerance(1e-11);

@@ -1,7 +1,7 @@
 //! Joints between bodies: rows against rotations of another making, degrees of freedom by hand, reactions by Newton and Euler.
 
 use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, Vector2, Vector3};
-use tests::{Random, assert_all_close, assert_close, at, at_rest};
+use tests::{Random, assert_all_close, assert_close, at, at_rest, outputs, rates, residuals};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Solution, Solver, State, assemble};
 
@@ -94,10 +94,8 @@ fn rows_of_spatial_joints_are_those_of_rotations() {
     for _ in 0..50 {
         let state = random_state(&mut random, 2);
         let mechanism: ukcore::Prepared = Joints::default().prepared();
-        let (h, m) = (Joints::SPEC.holonomic, Joints::SPEC.constraints.len());
-        let (mut phi, mut rate) = (vec![0.0; h], vec![0.0; m]);
-        mechanism.residual(state.t, &state.q, &mut phi);
-        mechanism.residual_rate(state.t, &state.q, &state.v, &mut rate);
+        let phi = residuals(&mechanism, state.t, &state.q);
+        let rate = rates(&mechanism, state.t, &state.q, &state.v);
         let a = Pose::of(&state.q[..7], &state.v[..7], CENTRE);
         let b = Pose::of(&state.q[7..], &state.v[7..], [0.0; 3]);
         let [p, r, u, w] = [P, R, U, W].map(Vector3::from);
@@ -189,8 +187,7 @@ fn rows_of_spatial_joints_are_those_of_rotations() {
         let slip = b.moves(r) + b.omega.cross(&(touch - b.at(r)));
         close("rolls", &Joints::ROLLS.map(|i| rate[i]), &[slip.x, slip.y]);
 
-        let mut outputs = vec![0.0; Joints::SPEC.outputs.len()];
-        mechanism.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let outputs = outputs(&mechanism, &state);
         let outputs =
             |places: &[usize]| -> Vec<f64> { places.iter().map(|i| outputs[*i]).collect() };
         let matrix = b.turn.to_rotation_matrix().matrix().transpose();
@@ -239,8 +236,7 @@ fn rows_of_planar_joints_are_those_of_rotations() {
     let mechanism: ukcore::Prepared = Flat::default().prepared();
     for _ in 0..50 {
         let (t, q) = (random.signed(), random.vector(6));
-        let mut phi = vec![0.0; Flat::SPEC.holonomic];
-        mechanism.residual(t, &q, &mut phi);
+        let phi = residuals(&mechanism, t, &q);
         let (p, r, d) = (
             Vector2::new(0.3, -0.2),
             Vector2::new(0.1, 0.4),

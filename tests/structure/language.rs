@@ -2,7 +2,7 @@
 //! numbers.
 
 use nalgebra::DMatrix;
-use tests::{Dense, Random, assert_all_close, assert_close, at};
+use tests::{Dense, Random, assert_all_close, assert_close, at, outputs, rates, residuals};
 use ukcore::scalar::{Dual, Scalar};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Solver, State};
@@ -68,11 +68,9 @@ fn dual<S: Scalar>(x: &[S], d: &[S]) -> Vec<Dual<S>> {
 
 /// A random state: coordinates and velocities in (−1, 1), t in (0, 1).
 fn state(random: &mut Random, n: usize) -> State {
-    State {
-        t: 0.5 * (random.signed() + 1.0),
-        q: random.vector(n),
-        v: random.vector(n),
-    }
+    let state = random.state(n);
+    let t = 0.5 * (state.t + 1.0);
+    State { t, ..state }
 }
 
 #[test]
@@ -80,15 +78,9 @@ fn every_function_is_emitted_as_it_is_written() {
     let mut random = Random::new(61);
     let mechanism = Functions::default();
     for _ in 0..300 {
-        let State { t, q, v } = state(&mut random, 3);
-        let dense = Dense::of(
-            &mechanism,
-            &State {
-                t,
-                q: q.clone(),
-                v: v.clone(),
-            },
-        );
+        let state = state(&mut random, 3);
+        let dense = Dense::of(&mechanism, &state);
+        let State { t, q, v } = state;
         let close = |what: &str, row: usize, found: f64, expected: f64| {
             let name = Functions::SPEC.constraints[row].name;
             let accuracy = 1e-11 * expected.abs().max(1.0);
@@ -99,8 +91,7 @@ fn every_function_is_emitted_as_it_is_written() {
                 accuracy,
             );
         };
-        let mut phi = [0.0; 9];
-        mechanism.prepared().residual(t, &q, &mut phi);
+        let phi = residuals(&mechanism, t, &q);
         // φ, φ̇ and φ̈ along q + v s, t + s.
         let first = Dual::new(t, 1.0);
         let along: Vec<Dual<Dual<f64>>> = q
@@ -109,8 +100,7 @@ fn every_function_is_emitted_as_it_is_written() {
             .map(|(q, v)| Dual::new(Dual::new(*q, *v), Dual::new(*v, 0.0)))
             .collect();
         let twice = mechanism.by_hand(Dual::new(first, Dual::new(1.0, 0.0)), &along);
-        let mut rate = [0.0; 9];
-        mechanism.prepared().residual_rate(t, &q, &v, &mut rate);
+        let rate = rates(&mechanism, t, &q, &v);
         for (row, by_hand) in twice.iter().enumerate() {
             close("φ", row, phi[row], by_hand.re.re);
             close("φ̇", row, rate[row], by_hand.re.eps);
@@ -212,17 +202,11 @@ fn loops_and_families_serve_in_every_section() {
             }
             mechanism
         };
-        let State { t, q, v } = state(&mut random, 7);
+        let state = state(&mut random, 7);
+        let State { t, q, v } = state.clone();
         let (m, c, d) = (mechanism.m, mechanism.c, mechanism.d);
         let (x, y, s) = ([q[0], q[2], q[4]], [q[1], q[3], q[5]], q[6]);
-        let dense = Dense::of(
-            &mechanism,
-            &State {
-                t,
-                q: q.clone(),
-                v: v.clone(),
-            },
-        );
+        let dense = Dense::of(&mechanism, &state);
         let mut mass = DMatrix::zeros(7, 7);
         let mut force = vec![0.0; 7];
         let mut nonideal = vec![0.0; 7];
@@ -241,8 +225,7 @@ fn loops_and_families_serve_in_every_section() {
         assert_all_close("M", dense.mass.as_slice(), mass.as_slice(), 1e-14);
         assert_all_close("Q", dense.force.as_slice(), &force, 1e-14);
         assert_all_close("c", dense.nonideal.as_slice(), &nonideal, 1e-14);
-        let mut rate = [0.0; 5];
-        mechanism.prepared().residual_rate(t, &q, &v, &mut rate);
+        let rate = rates(&mechanism, t, &q, &v);
         let roll = 2.0 * (x[0] * v[0] + y[0] * v[1]) + v[6] * v[6] - t.cos() * v[5];
         let expected = [
             v[0] - v[2] - v[6],
@@ -252,8 +235,7 @@ fn loops_and_families_serve_in_every_section() {
             roll,
         ];
         assert_all_close("rates", &rate, &expected, 1e-14);
-        let mut phi = [0.0; 4];
-        mechanism.prepared().residual(t, &q, &mut phi);
+        let phi = residuals(&mechanism, t, &q);
         let second = |i: usize| y[i] - y[i + 1] - i as f64 + t.sin();
         assert_all_close(
             "φ",
@@ -272,12 +254,10 @@ fn loops_and_families_serve_in_every_section() {
         let roll = [2.0 * x[0], 2.0 * y[0], 0.0, 0.0, 0.0, -t.cos(), 2.0 * v[6]];
         let row: Vec<f64> = dense.jacobian.row(4).iter().copied().collect();
         assert_all_close("A of `roll`", &row, &roll, 1e-14);
-        let mut outputs = [0.0; 9];
-        mechanism.prepared().outputs(t, &q, &v, &mut outputs);
         let total: f64 = (0..3).map(|i| m[i] * (x[i] * x[i] + y[i] * y[i])).sum();
         let mut expected: Vec<f64> = q[..6].iter().map(|q| 2.0 * q).collect();
         expected.extend([total / 3.0, v[2], v[3]]);
-        assert_all_close("outputs", &outputs, &expected, 1e-14);
+        assert_all_close("outputs", &outputs(&mechanism, &state), &expected, 1e-14);
     }
 }
 
@@ -305,7 +285,9 @@ fn lagrange_with_time_in_the_kinetic_energy() {
             r: 1.0 + 0.5 * random.signed(),
             a: random.signed(),
         };
-        let State { t, q, v } = state(&mut random, 2);
+        let state = state(&mut random, 2);
+        let dense = Dense::of(&hoop, &state);
+        let State { t, q, v } = state;
         let kinetic = |t: Dual<Dual<f64>>, q: [Dual<Dual<f64>>; 2], v: [Dual<Dual<f64>>; 2]| {
             let c = <Dual<Dual<f64>> as Scalar>::from_f64;
             let ([th, s], [w, u]) = (q, v);
@@ -317,14 +299,6 @@ fn lagrange_with_time_in_the_kinetic_energy() {
         };
         let number = |x: f64| Dual::new(Dual::new(x, 0.0), Dual::new(0.0, 0.0));
         let at = |x: &[f64]| [number(x[0]), number(x[1])];
-        let dense = Dense::of(
-            &hoop,
-            &State {
-                t,
-                q: q.clone(),
-                v: v.clone(),
-            },
-        );
         let energy = hoop.prepared().energy(t, &q, &v);
         let by_hand = kinetic(number(t), at(&q), at(&v)).re.re;
         assert_close("T", energy.kinetic, by_hand, 1e-13 * by_hand.abs().max(1.0));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use tests::assert_close;
+use tests::{assert_close, outputs};
 use ukcore::solver::SolverOptions;
 use ukcore::{Mechanism, Simulation, Solver, State, lost_reactions};
 
@@ -304,8 +304,7 @@ bicycle! {
 #[test]
 fn loads_of_what_is_not_accelerated_are_known() {
     fn ridden<M: Mechanism>(of: &M, start: State, lean_rate: f64) -> (usize, f64) {
-        let mut out = [0.0; 2];
-        of.prepared().outputs(0.0, &start.q, &start.v, &mut out);
+        let out = outputs(of, &start);
         let mut solver = Solver::new(of, SolverOptions::default());
         let found = solver.solve(0.0, &start.q, &start.v).unwrap();
         // Under touch[0], touch[1] and two times two of grip.

@@ -1,7 +1,7 @@
 //! Reactions in expressions: by Newton and Euler for each joint, where they are not unique, and beside the solver's multipliers.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
-use tests::{Random, assert_all_close, assert_close, at, at_rest};
+use tests::{Random, accelerations, assert_all_close, assert_close, at, at_rest, outputs};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{
     Error, Linearisation, Mechanism, Simulation, Solver, State, assemble, diagnose, lost_reactions,
@@ -103,15 +103,8 @@ spatial! {
 /// A consistent state near a random sketch, if there is one, its accelerations, and its outputs.
 fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
     let start = assemble(M::default(), &sketch, &[]).ok()?;
-    let mut solver = Solver::new(M::default(), SolverOptions::default());
-    let mut acceleration = vec![0.0; start.q.len()];
-    solver
-        .acceleration(start.t, &start.q, &start.v, &mut acceleration)
-        .unwrap();
-    let mut outputs = vec![0.0; M::SPEC.outputs.len()];
-    solver
-        .mechanism()
-        .outputs(start.t, &start.q, &start.v, &mut outputs);
+    let acceleration = accelerations(&M::default(), &start);
+    let outputs = outputs(&M::default(), &start);
     Some((start, acceleration, outputs))
 }
 
@@ -156,11 +149,7 @@ fn planar<M: Mechanism>(of_a: bool) {
     let mut random = Random::new(17);
     let mut sizes = 0.0;
     for _ in 0..20 {
-        let sketch = State {
-            t: random.signed(),
-            q: random.vector(6),
-            v: random.vector(6),
-        };
+        let sketch = random.state(6);
         let (start, x, out) = motion::<M>(sketch).unwrap();
         balanced::<M>(&start, &x);
         let (force, moment, arm) = (&out[..2], out[2], &out[3..5]);
@@ -477,8 +466,7 @@ fn reactions_are_those_of_ideal_constraints() {
         };
         let mut solver = Solver::new(Wire::default(), options);
         let solution = solver.solve(0.0, &q, &v).unwrap();
-        let mut out = vec![0.0; 4];
-        solver.mechanism().outputs(0.0, &q, &v, &mut out);
+        let out = outputs(solver.mechanism(), &at(&q, &v));
         let expected = [0, 1].map(|k| 2.0 * solution.multipliers[0] * q[k]);
         assert_all_close("reaction", &out[2..], &expected, 1e-12);
         let size = 0.25 * expected[0].hypot(expected[1]);
@@ -549,10 +537,8 @@ fn loops_of_a_tree_have_reactions() {
             ..FourBar::default()
         };
         let pinned = bodies.start("open", &options).expect("a start");
-        let (mut of_tree, mut of_bodies) = ([0.0; 4], [0.0; FourBar::SPEC.outputs.len()]);
-        let (tree, bodies) = (Hung::default().prepared(), bodies.prepared());
-        tree.outputs(0.0, &hung.q, &hung.v, &mut of_tree);
-        bodies.outputs(0.0, &pinned.q, &pinned.v, &mut of_bodies);
+        let of_tree = outputs(&Hung::default(), &hung);
+        let of_bodies = outputs(&bodies, &pinned);
         assert_all_close(
             "reaction",
             &of_tree[..2],

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use tests::FourBar;
+use tests::{FourBar, outputs};
 use tests::{Random, assert_all_close, assert_close, at_rest};
 use ukcore::assemble::residuals;
 use ukcore::model::StartOptions;
@@ -190,8 +190,7 @@ fn masses_many_orders_apart_are_assembled() {
 fn bodies_turn_as_they_are_told() {
     let (hung, top) = (Hung::default().prepared(), Top::default().prepared());
     let of = |mechanism: &Prepared, state: &State, name: &str| {
-        let mut outputs = vec![0.0; mechanism.spec().outputs.len()];
-        mechanism.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let outputs = outputs(mechanism, state);
         let of = |k: usize| mechanism.spec().output_index(&format!("{name}[{k}]"));
         [0, 1, 2].map(|k| outputs[of(k).expect("declared")])
     };

@@ -1,6 +1,6 @@
 //! Starts that tell of some coordinates, near which they are, where freedoms are left: all else follows, wherever the ground's points are.
 
-use tests::assert_close;
+use tests::{assert_close, outputs};
 use ukcore::Prepared;
 
 /// Mechanisms about a point of the ground, with what is to be 0 in starts that meet what they tell.
@@ -112,9 +112,7 @@ fn what_is_told_is_kept_and_all_else_follows() {
             mechanism.set("ox", x).expect("a parameter");
             mechanism.set("oy", y).expect("a parameter");
             let start = mechanism.start("told", &[].into()).expect("a start");
-            let mut off = vec![0.0; mechanism.spec().outputs.len()];
-            mechanism.outputs(start.t, &start.q, &start.v, &mut off);
-            for off in off {
+            for off in outputs(&mechanism, &start) {
                 // A rod that is told to two digits gives way a little.
                 assert_close(mechanism.spec().name, off, 0.0, 5e-3);
             }

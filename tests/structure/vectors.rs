@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 use std::array::from_fn;
-use tests::{Dense, Random, assert_all_close, assert_close};
+use tests::{Dense, Random, assert_all_close, assert_close, difference, outputs, rates, residuals};
 use ukcore::scalar::{Dual, Scalar};
 use ukcore::{Mechanism, State};
 
@@ -179,24 +179,21 @@ fn vectors_in_every_section_are_their_components() {
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
             mechanism.tensor[j][i] = mechanism.tensor[i][j];
         }
-        let (t, q, v) = (random.signed(), random.vector(SIZE), random.vector(SIZE));
-        let state = State {
-            t,
-            q: q.clone(),
-            v: v.clone(),
-        };
+        let state = random.state(SIZE);
+        let State { t, q, v } = state.clone();
         let dense = Dense::of(&mechanism, &state);
         let emitted = mechanism.prepared();
 
-        let mut phi = [0.0; 9];
-        emitted.residual(t, &q, &mut phi);
-        assert_all_close("φ", &phi, &mechanism.holonomic(t, &q), 1e-13);
-        let mut rate = [0.0; 12];
-        emitted.residual_rate(t, &q, &v, &mut rate);
+        assert_all_close(
+            "φ",
+            &residuals(&emitted, t, &q),
+            &mechanism.holonomic(t, &q),
+            1e-13,
+        );
         let moved = mechanism.holonomic(Dual::new(t, 1.0), &along(&q, &v));
-        let mut rates: Vec<f64> = moved.iter().map(|x| x.eps).collect();
-        rates.extend(mechanism.nonholonomic(&q, &v));
-        assert_all_close("φ̇ and ψ", &rate, &rates, 1e-12);
+        let mut expected: Vec<f64> = moved.iter().map(|x| x.eps).collect();
+        expected.extend(mechanism.nonholonomic(&q, &v));
+        assert_all_close("φ̇ and ψ", &rates(&emitted, t, &q, &v), &expected, 1e-12);
 
         // A: slopes of φ along q, of ψ along q̇.
         for j in 0..SIZE {
@@ -227,13 +224,11 @@ fn vectors_in_every_section_are_their_components() {
         let energy = emitted.energy(t, &q, &v);
         let by_hand = mechanism.potential(&q);
         assert_close("V", energy.potential, by_hand, 1e-12);
-        let mut outputs = [0.0; 9];
-        emitted.outputs(t, &q, &v, &mut outputs);
         let front = mechanism.point(0, [1.0, 0.0, 0.0], &q);
         let mut expected = mechanism.point(0, mechanism.r[0], &q).to_vec();
         expected.extend(mechanism.point(1, mechanism.r[1], &q));
         expected.extend((0..3).map(|k| front[k] - q[k]));
-        assert_all_close("outputs", &outputs, &expected, 1e-14);
+        assert_all_close("outputs", &outputs(&emitted, &state), &expected, 1e-14);
     }
 }
 
@@ -242,35 +237,19 @@ fn vectors_in_every_section_are_their_components() {
 fn by_differences<M: Mechanism + Clone>(mechanism: &M, state: &State) {
     let spec = M::SPEC;
     let (t, q, v) = (state.t, &state.q, &state.v);
-    let rate = |t: f64, q: &[f64], v: &[f64]| {
-        let mut rate = vec![0.0; spec.m()];
-        mechanism.prepared().residual_rate(t, q, v, &mut rate);
-        rate
-    };
-    let residual = |q: &[f64]| {
-        let mut phi = vec![0.0; spec.holonomic];
-        mechanism.prepared().residual(t, q, &mut phi);
-        phi
-    };
-    let difference = |f: &dyn Fn(f64) -> Vec<f64>| -> Vec<f64> {
-        let h = 1e-3;
-        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| f(k * h));
-        let slope = |i: usize| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * h);
-        (0..a.len()).map(slope).collect()
-    };
     let moved = |x: &[f64], d: &[f64], h: f64| -> Vec<f64> {
         x.iter().zip(d).map(|(x, d)| x + h * d).collect()
     };
     let dense = Dense::of(mechanism, state);
     for j in 0..spec.n() {
         let unit: Vec<f64> = (0..spec.n()).map(|i| f64::from(u8::from(i == j))).collect();
-        let mut column = difference(&|h| residual(&moved(q, &unit, h)));
-        let rolled = difference(&|h| rate(t, q, &moved(v, &unit, h)));
+        let mut column = difference(1e-3, |h| residuals(mechanism, t, &moved(q, &unit, h)));
+        let rolled = difference(1e-3, |h| rates(mechanism, t, q, &moved(v, &unit, h)));
         column.extend(&rolled[spec.holonomic..]);
         let found: Vec<f64> = dense.jacobian.column(j).iter().copied().collect();
         assert_all_close(spec.coords[j], &found, &column, 1e-7);
     }
-    let slopes = difference(&|h| rate(t + h, &moved(q, v, h), v));
+    let slopes = difference(1e-3, |h| rates(mechanism, t + h, &moved(q, v, h), v));
     let rhs: Vec<f64> = slopes.iter().map(|x| -x).collect();
     assert_all_close("b", dense.rhs.as_slice(), &rhs, 1e-6);
 }
@@ -279,13 +258,8 @@ fn by_differences<M: Mechanism + Clone>(mechanism: &M, state: &State) {
 fn derivatives_are_differences() {
     let mut random = Random::new(72);
     for _ in 0..5 {
-        let mut state = |n| State {
-            t: random.signed(),
-            q: random.vector(n),
-            v: random.vector(n),
-        };
-        by_differences(&Vocabulary::default(), &state(SIZE));
-        by_differences(&Frame::default(), &state(5));
+        by_differences(&Vocabulary::default(), &random.state(SIZE));
+        by_differences(&Frame::default(), &random.state(5));
     }
 }
 
@@ -296,9 +270,7 @@ fn matrices_make_one_constraint_for_each_entry() {
     // rot(s) e = rot(−t): e turns by −s − t.
     let a = -s - t;
     let q = [a.cos(), -a.sin(), a.sin(), a.cos(), s];
-    let mut phi = [0.0; 4];
-    frame.prepared().residual(t, &q, &mut phi);
-    assert_all_close("φ", &phi, &[0.0; 4], 1e-15);
+    assert_all_close("φ", &residuals(&frame, t, &q), &[0.0; 4], 1e-15);
     // The same motion of e: s and t change the angle by −1 each.
     let rate = |angle: f64| {
         [
@@ -309,10 +281,7 @@ fn matrices_make_one_constraint_for_each_entry() {
         ]
     };
     let [x, y, z, w] = rate(-0.3 - 1.0);
-    let mut found = [1.0; 4];
-    frame
-        .prepared()
-        .residual_rate(t, &q, &[x, y, z, w, 0.3], &mut found);
+    let found = rates(&frame, t, &q, &[x, y, z, w, 0.3]);
     assert_all_close("φ̇", &found, &[0.0; 4], 1e-15);
 }
 
