@@ -1,9 +1,9 @@
 //! After setup, an acceleration allocates nothing.
 
 use crate::every::{every_model, start};
-use ukcore::Solver;
+use tests::solver_by;
 use ukcore::manifold::Projector;
-use ukcore::solver::{Formula, SolverOptions};
+use ukcore::solver::Formula;
 
 #[test]
 fn acceleration_allocates_nothing() {
@@ -12,11 +12,7 @@ fn acceleration_allocates_nothing() {
         let spec = mechanism.spec();
         let state = start(model);
         for formula in [Formula::Auto, Formula::Kkt, Formula::UdwadiaPhohomsiri] {
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
-            let mut solver = Solver::new(mechanism, options);
+            let mut solver = solver_by(formula, mechanism);
             let mut out = vec![0.0; spec.n()];
             let count = allocation_counter::measure(|| {
                 for k in 0..10 {

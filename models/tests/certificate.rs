@@ -6,7 +6,9 @@
 use crate::every::every_model;
 use models::{Model, SliderCrank, UChain, Visitor, visit};
 use nalgebra::{DMatrix, DVector};
-use tests::{Dense, Random, apart, assert_all_close, largest, pseudo_inverse, singular_values};
+use tests::{
+    Dense, Random, apart, assert_all_close, largest, pseudo_inverse, singular_values, solver_by,
+};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Prepared, Solver, State};
@@ -338,11 +340,7 @@ fn wrong_masses() {
                     if safe > 0.5 {
                         assert_eq!(wrong, 0.0, "{case} passed");
                         let mut printed = vec![0.0; n];
-                        let by = SolverOptions {
-                            formula: Formula::UdwadiaPhohomsiri,
-                            ..SolverOptions::default()
-                        };
-                        let mut solver = Solver::new(&mechanism, by);
+                        let mut solver = solver_by(Formula::UdwadiaPhohomsiri, &mechanism);
                         let solved = solver.acceleration(state.t, &state.q, &state.v, &mut printed);
                         solved.unwrap_or_else(|e| panic!("{case} passed: {e}"));
                         let size = largest(&printed);
@@ -411,13 +409,7 @@ fn ratios_set_far_from_their_defaults() {
     ] {
         let mechanism = Geared { r, k };
         let mut solver = Solver::new(&mechanism, SolverOptions::default());
-        let mut printed = Solver::new(
-            &mechanism,
-            SolverOptions {
-                formula: Formula::UdwadiaKalaba,
-                ..SolverOptions::default()
-            },
-        );
+        let mut printed = solver_by(Formula::UdwadiaKalaba, &mechanism);
         for _ in 0..20 {
             let state = at::<Geared>(random.vector(6), &mut random);
             let (mut found, mut expected) = ([0.0; 6], [0.0; 6]);

@@ -4,7 +4,7 @@
 use crate::every::every_state;
 use models::UChain;
 use nalgebra::DVector;
-use tests::{Dense, Random, assert_close, largest};
+use tests::{Dense, FORMULAS, Random, assert_close, largest, solver_by};
 use ukcore::Solver;
 use ukcore::equations::{kkt, uk, up};
 use ukcore::solver::{Formula, SolverOptions};
@@ -24,20 +24,11 @@ fn formulas_agree_with_the_oracle() {
         // Regularity relative to the largest mass.
         let values = dense.mass.clone().symmetric_eigenvalues();
         let regular = values.min() > 1e-9 * values.max();
-        for formula in [
-            Formula::Auto,
-            Formula::UdwadiaKalaba,
-            Formula::UdwadiaPhohomsiri,
-            Formula::Kkt,
-        ] {
+        for formula in FORMULAS {
             if formula == Formula::UdwadiaKalaba && !regular {
                 continue;
             }
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
-            let mut solver = Solver::new(&model.mechanism, options);
+            let mut solver = solver_by(formula, &model.mechanism);
             let solution = solver
                 .solve(state.t, &state.q, &state.v)
                 .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", model.id));

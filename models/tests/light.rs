@@ -2,10 +2,10 @@
 
 use super::certificate::at;
 use models::SliderCrank;
-use tests::{Dense, Random, digits, straight};
+use tests::{Dense, Random, digits, solver_by, straight};
 use ukcore::equations::precise;
 use ukcore::scalar::{DoubleDouble, Scalar};
-use ukcore::solver::{Formula, SolverOptions};
+use ukcore::solver::Formula;
 use ukcore::spec::Pivot;
 use ukcore::{Mechanism, Solver, State};
 
@@ -48,16 +48,9 @@ struct Both {
 
 impl Both {
     fn of<M: Mechanism>(mechanism: &M) -> Self {
-        let by = |formula| {
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
-            Solver::new(mechanism.prepared(), options)
-        };
         Both {
-            solver: by(Formula::Auto),
-            dense: by(Formula::UdwadiaKalaba),
+            solver: solver_by(Formula::Auto, mechanism),
+            dense: solver_by(Formula::UdwadiaKalaba, mechanism),
             worst: 0.0,
             allowed: 0.0,
         }

@@ -15,7 +15,7 @@ mod wheels;
 
 use mechanisms::SpatialFourBar;
 use models::{DoubleScottRussell, Model};
-use tests::{Dense, Random, assert_all_close, at, largest};
+use tests::{Dense, Random, assert_all_close, at, largest, solver_by};
 use ukcore::equations::up;
 use ukcore::manifold::{Projector, Stabilisation};
 use ukcore::simulate::Sample;
@@ -255,13 +255,14 @@ fn a_row_that_counts_after_all_is_not_left_out() {
             let [vx1, vy1] = [w * a.cos(), w * a.sin()];
             let vy = -(0.3 * vx1 - 0.5 * vy1 + 0.2 * vx) / 0.4;
             let v = [vx1, vy1, vx1 + u * b.cos(), vy1 + u * b.sin(), vx, vy];
-            let dense = SolverOptions {
-                formula: Formula::UdwadiaPhohomsiri,
-                ..SolverOptions::default()
-            };
             let (mut found, mut expected) = (vec![0.0; 6], vec![0.0; 6]);
             let mut solver = Solver::new(&mechanism, SolverOptions::default());
-            let dense = Solver::new(&mechanism, dense).acceleration(0.0, &q, &v, &mut expected);
+            let dense = solver_by(Formula::UdwadiaPhohomsiri, &mechanism).acceleration(
+                0.0,
+                &q,
+                &v,
+                &mut expected,
+            );
             for _ in 0..2 {
                 let result = solver.acceleration(0.0, &q, &v, &mut found);
                 assert_eq!(

@@ -1,11 +1,10 @@
 //! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
 //! come out right by an oracle in 31 digits, or as an error with a name.
 
-use tests::{Buffers, Random, apart, digits, hunted, largest};
+use tests::{Buffers, FORMULAS, Random, apart, digits, hunted, largest, solver_by};
 use ukcore::manifold::Projector;
 use ukcore::scalar::{DoubleDouble, Scalar};
-use ukcore::solver::{Formula, SolverOptions};
-use ukcore::{Error, Mechanism, Simulation, Solver, State};
+use ukcore::{Error, Mechanism, Simulation, State};
 
 ukcore::multibody! {
     /// N particles and K rods. Parameters say which rod joins what: its vector is Σ c x − (ax, ay) over all particles. A rod without ends
@@ -330,18 +329,8 @@ impl Outcomes {
             return Ok(());
         }
         let exact = Exact::of(&rods, &state);
-        let formulas = [
-            Formula::Auto,
-            Formula::UdwadiaKalaba,
-            Formula::UdwadiaPhohomsiri,
-            Formula::Kkt,
-        ];
-        for formula in formulas {
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
-            let mut solver = Solver::new(&prepared, options);
+        for formula in FORMULAS {
+            let mut solver = solver_by(formula, &prepared);
             let mut found = vec![0.0; 2 * N];
             match solver.acceleration(0.0, &state.q, &state.v, &mut found) {
                 Ok(()) => {

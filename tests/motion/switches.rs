@@ -1,10 +1,9 @@
 //! Switching functions of abs, sign, min and max: what the compiler finds, and the equations with a branch held.
 
-use tests::{Random, assert_all_close, assert_close};
+use tests::{Random, assert_all_close, assert_close, solver_by};
 use ukcore::mechanism::Branch;
 use ukcore::scalar::Dual;
-use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Prepared, Solver};
+use ukcore::{Mechanism, Prepared};
 
 ukcore::multibody! {
     /// A kink or jump of each kind, in each part of the equations; one function may have several.
@@ -236,13 +235,7 @@ fn held_in_any_branch_the_equations_are_smooth() {
             &derivative(expected_slope),
             1e-12 * size,
         );
-        let mut dense = Solver::new(
-            &held,
-            SolverOptions {
-                formula: ukcore::solver::Formula::UdwadiaKalaba,
-                ..SolverOptions::default()
-            },
-        );
+        let mut dense = solver_by(ukcore::solver::Formula::UdwadiaKalaba, &held);
         let solution = dense.solve(*t, q, v).expect("a regular system");
         assert_all_close("dense", &solution.acceleration, &expected[..4], 1e-10);
         let mut output = [0.0];

@@ -13,7 +13,7 @@ mod values;
 pub use linkage::FourBar;
 pub use oracle::{Buffers, Dense, digits, pseudo_inverse, singular_values, straight};
 pub use random::Random;
-pub use values::{accelerations, difference, outputs, rates, residuals};
+pub use values::{FORMULAS, accelerations, difference, outputs, rates, residuals, solver_by};
 
 use std::f64::consts::{PI, TAU};
 

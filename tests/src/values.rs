@@ -1,7 +1,25 @@
 //! What a mechanism says at a state, each in a vector of its own, and slopes of that.
 
-use ukcore::solver::SolverOptions;
+use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Prepared, Solver, State};
+
+/// All formulas.
+pub const FORMULAS: [Formula; 4] = [
+    Formula::Auto,
+    Formula::UdwadiaKalaba,
+    Formula::UdwadiaPhohomsiri,
+    Formula::Kkt,
+];
+
+/// A solver by one of them.
+#[must_use]
+pub fn solver_by(formula: Formula, mechanism: impl Into<Prepared>) -> Solver {
+    let options = SolverOptions {
+        formula,
+        ..SolverOptions::default()
+    };
+    Solver::new(mechanism, options)
+}
 
 /// What a mechanism puts out.
 #[must_use]

@@ -1,9 +1,8 @@
 //! States where everything cancels, and the rounding that is left is neither a contradiction nor a violation: redundant constraints
 //! at rest, and coordinates that are zero.
 
-use tests::{Random, assert_all_close, at_rest, largest};
-use ukcore::solver::{Formula, SolverOptions};
-use ukcore::{Simulation, Solver, assemble};
+use tests::{FORMULAS, Random, assert_all_close, at_rest, largest, solver_by};
+use ukcore::{Simulation, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.
@@ -32,13 +31,6 @@ ukcore::multibody! {
     }
 }
 
-const FORMULAS: [Formula; 4] = [
-    Formula::Auto,
-    Formula::UdwadiaKalaba,
-    Formula::UdwadiaPhohomsiri,
-    Formula::Kkt,
-];
-
 #[test]
 fn a_truss_stands() {
     let mut random = Random::new(51);
@@ -52,11 +44,7 @@ fn a_truss_stands() {
         };
         let q = [truss.px, truss.py];
         for formula in FORMULAS {
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
-            let mut solver = Solver::new(&truss, options);
+            let mut solver = solver_by(formula, &truss);
             let solution = solver
                 .solve(0.0, &q, &[0.0; 2])
                 .unwrap_or_else(|e| panic!("{formula:?}, {truss:?}: {e}"));

@@ -2,7 +2,9 @@
 //! numbers.
 
 use nalgebra::DMatrix;
-use tests::{Dense, Random, assert_all_close, assert_close, at, outputs, rates, residuals};
+use tests::{
+    Dense, Random, assert_all_close, assert_close, at, outputs, rates, residuals, solver_by,
+};
 use ukcore::scalar::{Dual, Scalar};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Solver, State};
@@ -401,12 +403,8 @@ fn acceleration<M: Mechanism>(
     formula: Formula,
     state: &State,
 ) -> Result<Vec<f64>, Error> {
-    let options = SolverOptions {
-        formula,
-        ..SolverOptions::default()
-    };
     let mut out = vec![0.0; M::SPEC.n()];
-    let mut solver = Solver::new(mechanism, options);
+    let mut solver = solver_by(formula, mechanism);
     solver.acceleration(state.t, &state.q, &state.v, &mut out)?;
     Ok(out)
 }

@@ -1,8 +1,11 @@
 //! Reactions in expressions: by Newton and Euler for each joint, where they are not unique, and beside the solver's multipliers.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
-use tests::{Random, accelerations, assert_all_close, assert_close, at, at_rest, outputs};
-use ukcore::solver::{Formula, SolverOptions};
+use tests::{
+    FORMULAS, Random, accelerations, assert_all_close, assert_close, at, at_rest, outputs,
+    solver_by,
+};
+use ukcore::solver::SolverOptions;
 use ukcore::{
     Error, Linearisation, Mechanism, Simulation, Solver, State, assemble, diagnose, lost_reactions,
 };
@@ -454,17 +457,7 @@ fn reactions_are_those_of_ideal_constraints() {
             vec![0.8 * angle.sin(), -0.8 * angle.cos()],
             vec![speed * angle.cos(), speed * angle.sin()],
         );
-        let formula = [
-            Formula::Auto,
-            Formula::UdwadiaKalaba,
-            Formula::UdwadiaPhohomsiri,
-            Formula::Kkt,
-        ][k % 4];
-        let options = SolverOptions {
-            formula,
-            ..SolverOptions::default()
-        };
-        let mut solver = Solver::new(Wire::default(), options);
+        let mut solver = solver_by(FORMULAS[k % 4], &Wire::default());
         let solution = solver.solve(0.0, &q, &v).unwrap();
         let out = outputs(solver.mechanism(), &at(&q, &v));
         let expected = [0, 1].map(|k| 2.0 * solution.multipliers[0] * q[k]);

@@ -2,7 +2,7 @@
 //! rank, the same redundant constraints, and takes the same steps over its singular positions. Where the factors are powers of two all
 //! this is the same bit for bit.
 
-use tests::{assert_close, at, cause};
+use tests::{assert_close, at, cause, solver_by};
 use ukcore::solver::{Formula, SolverOptions};
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, Solver, State};
 
@@ -228,12 +228,8 @@ fn solutions_are_the_same_bit_for_bit() {
     for case in cases() {
         let name = case.mechanism.spec().name;
         for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri] {
-            let options = SolverOptions {
-                formula,
-                ..SolverOptions::default()
-            };
             let solve = |mechanism: Prepared, state: &State| {
-                let mut solver = Solver::new(mechanism, options);
+                let mut solver = solver_by(formula, mechanism);
                 let mut straight = vec![0.0; state.q.len()];
                 let found = solver.acceleration(state.t, &state.q, &state.v, &mut straight);
                 found.unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -3,8 +3,8 @@
 use catalogue::Bicycle;
 use nalgebra::{Complex, DMatrix};
 use tests::{assert_all_close, assert_close};
+use ukcore::Mechanism;
 use ukcore::scalar::Dual;
-use ukcore::{Linearisation, Mechanism};
 
 /// Real and imaginary parts of the eigenvalues of straight running at 0 to 10 m/s: of weave, then castering and capsize (Table 2). At rest
 /// the four are real, ± two numbers.
@@ -129,15 +129,7 @@ fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
     assert_eq!(free.len(), 2 * n - h - m, "independent rows");
     let tangent = squares.eigenvectors.select_columns(&free);
 
-    let found = Linearisation::at(&bicycle, &state).expect("smooth");
-    let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-    matrix.view_mut((0, n), (n, n)).fill_with_identity();
-    matrix
-        .view_mut((n, 0), (n, n))
-        .copy_from_slice(&found.by_position);
-    matrix
-        .view_mut((n, n), (n, n))
-        .copy_from_slice(&found.by_velocity);
+    let matrix = super::slopes(&bicycle, &state);
 
     // Lean and steering of frame and fork near the upright, where both have e = (1, 0, 0, 0).
     let (sin, cos) = bicycle.tilt.sin_cos();

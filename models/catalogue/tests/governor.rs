@@ -3,7 +3,7 @@
 use crate::pose::Pose;
 use catalogue::Governor;
 use tests::assert_close;
-use ukcore::{Linearisation, Method, Simulation};
+use ukcore::{Method, Simulation};
 
 /// The governor in slider height s and rod angle θ alone, after Routh: the angular momentum about the axle stays.
 struct Reduced {
@@ -121,17 +121,7 @@ fn it_moves_as_two_coordinates_say() {
 fn it_is_as_stiff_as_published() {
     let governor = Governor::default();
     let start = super::start(&governor);
-    let n = start.q.len();
-    let found = Linearisation::at(governor, &start).expect("smooth");
-    let mut matrix = nalgebra::DMatrix::zeros(2 * n, 2 * n);
-    matrix.view_mut((0, n), (n, n)).fill_with_identity();
-    matrix
-        .view_mut((n, 0), (n, n))
-        .copy_from_slice(&found.by_position);
-    matrix
-        .view_mut((n, n), (n, n))
-        .copy_from_slice(&found.by_velocity);
-    let values = matrix.complex_eigenvalues();
+    let values = super::slopes(&governor, &start).complex_eigenvalues();
     let fastest = values
         .iter()
         .fold(0.0, |least: f64, value| least.min(value.re));

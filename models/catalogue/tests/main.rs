@@ -14,8 +14,9 @@ mod stewart;
 
 use std::process::Command;
 
+use nalgebra::DMatrix;
 use ukcore::model::StartOptions;
-use ukcore::{Mechanism, Simulation, State, Trajectory};
+use ukcore::{Linearisation, Mechanism, Simulation, State, Trajectory};
 
 #[test]
 fn every_mechanism_is_whole() {
@@ -55,6 +56,17 @@ fn start<M: Mechanism>(mechanism: &M) -> State {
         .prepared()
         .start(M::SPEC.starts[0].name, &StartOptions::new());
     start.unwrap_or_else(|e| panic!("{}: {e}", M::SPEC.name))
+}
+
+/// The derivatives of velocities and accelerations by coordinates and velocities.
+fn slopes<M: Mechanism>(mechanism: &M, state: &State) -> DMatrix<f64> {
+    let (found, n) = (Linearisation::at(mechanism, state), state.q.len());
+    let found = found.expect("smooth");
+    let mut slopes = DMatrix::zeros(2 * n, 2 * n);
+    slopes.view_mut((0, n), (n, n)).fill_with_identity();
+    let by_both = [found.by_position, found.by_velocity].concat();
+    slopes.rows_mut(n, n).copy_from_slice(&by_both);
+    slopes
 }
 
 /// A run from the default start to `end`, with samples each `every`, s.
