@@ -2,7 +2,7 @@
 
 use super::errors::check as check_errors;
 use super::vectors::check;
-use super::{analysis, system};
+use super::{analysis, coordinates, system};
 use crate::analysis::Operations;
 use crate::expr::{Id, Point, eval};
 
@@ -253,11 +253,7 @@ fn names_of_coordinates_and_rows() {
         "pub T { bodies { for i in 0..2 { planar link[i] { mass: 1, inertia: 1 }, spatial cube[i] { mass: 1, inertia: [1, 1, 1] } } } \
          holonomic { c: pin(link[0].at([1, 0]), link[1].at([0, 0])), d: ball(cube[0].at([1, 0, 0]), cube[1].at([0, 0, 0])) } }",
     );
-    let names: Vec<&str> = model
-        .coord_elements
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names = coordinates(&model);
     assert_eq!(
         names[..6],
         [
@@ -296,13 +292,8 @@ fn names_of_coordinates_and_rows() {
     );
 }
 
-macro_rules! cases {
-    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
-        $(#[test] fn $name() { check_errors($source, &[$($message),+]); })*
-    };
-}
-
 cases! {
+    check_errors;
     kind_of_a_body: "bodies { «plane» a { mass: 1 } }" => "a body is `planar` or `spatial`, not `plane`";
     body_without_braces: "bodies { planar «a» } coords { x } mass { x: 1.0 }" => "a body needs what it consists of";
     part_of_a_body: "bodies { planar a { «mas»: 1, inertia: 1 } }" => "a body has no `mas`; did you mean `mass`?";

@@ -185,13 +185,8 @@ pub(super) fn check_after(before: &str, marked: &str, messages: &[&str]) {
     }
 }
 
-macro_rules! cases {
-    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
-        $(#[test] fn $name() { check($source, &[$($message),+]); })*
-    };
-}
-
 cases! {
+    check;
     // Names.
     unknown_name: "params { mass1 = 1.0 } coords { x } mass { x: «mass2» }" => "unknown name `mass2`; did you mean `mass1`?";
     unknown_name_without_neighbour: "coords { x } mass { x: «weight» }" => "declare it under `params`, `coords` or by `let`";

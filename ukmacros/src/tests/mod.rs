@@ -1,5 +1,12 @@
 //! Tests of the compiler from inside: a procedural macro's crate exports nothing else.
 
+/// A test for each of some declarations: its name, what is wrong marked by `«»`, and what is told of that, as a function checks it.
+macro_rules! cases {
+    ($check:ident; $($name:ident: $source:literal => $($message:literal),+;)*) => {
+        $(#[test] fn $name() { $check($source, &[$($message),+]); })*
+    };
+}
+
 mod bodies;
 mod constants;
 mod counts;
@@ -50,6 +57,12 @@ fn lowered(tokens: TokenStream) -> (Declaration, Model, System) {
 fn system(source: &str) -> (System, Model) {
     let (_, model, system) = lowered(source.parse().expect("test sources are Rust tokens"));
     (system, model)
+}
+
+/// The names of coordinates.
+fn coordinates(model: &Model) -> Vec<&str> {
+    let names = model.coord_elements.iter();
+    names.map(|c| c.name.as_str()).collect()
 }
 
 /// What is known about a declaration without errors.

@@ -1,7 +1,7 @@
 //! Declarations within declarations: the whole is what it would be if all stood in it, and mistakes are told where the part is declared.
 
 use super::errors::check_after;
-use super::{expand, system};
+use super::{coordinates, expand, system};
 use crate::expr::{Id, Point, eval};
 
 const LEG: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l = 0.5, m[2] = [1.0, 2.0], k = 2 * l } \
@@ -55,11 +55,7 @@ fn parts_are_what_stands_in_them() {
     for (a, b) in found.iter().zip(&expected) {
         assert!((a - b).abs() < 1e-13, "{found:?} is not {expected:?}");
     }
-    let names: Vec<&str> = model
-        .coord_elements
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names = coordinates(&model);
     assert_eq!(
         names[3..7],
         [
@@ -109,11 +105,7 @@ fn parts_have_parts() {
         { { crate::Foot } { pub Foot { params { r = 0.1, c = 2.0 } bodies { planar sole { mass: 1, inertia: r * c } } output { o = sole.x } } } { } }] \
         pub T { params { l = 0.9 } parts { leg[2]: Leg { l } } output { o = leg[1].foot[0].sole.angle, r = leg[0].foot[1].r } force { leg[1].foot[0].sole.angle: 1 } }";
     let (system, model) = system(source);
-    let names: Vec<&str> = model
-        .coord_elements
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names = coordinates(&model);
     assert_eq!(
         names[..4],
         [
@@ -276,13 +268,12 @@ fn what_cannot_be_given_or_made_is_told() {
     }
 }
 
-macro_rules! cases {
-    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
-        $(#[test] fn $name() { check_after(LEG, $source, &[$($message),+]); })*
-    };
+fn check_with_leg(marked: &str, messages: &[&str]) {
+    check_after(LEG, marked, messages);
 }
 
 cases! {
+    check_with_leg;
     unknown_parameter: "gravity { [0, -1] } parts { leg: Leg { «size»: 1 } }" => "`Leg` has no parameter `size`; they are `l`, `m`, `k`";
     constant_given: "gravity { [0, -1] } parts { leg: Leg { «N»: 1 } }" => "`N` is a constant of `Leg`, the same in all parts";
     given_twice: "gravity { [0, -1] } parts { leg: Leg { l: 1, «l»: 2 } }" => "`l` is given twice";

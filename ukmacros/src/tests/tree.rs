@@ -1,7 +1,7 @@
 //! Bodies that hang on joints of the tree: what they cost, their names, and mistakes.
 
 use super::errors::check as check_errors;
-use super::{analysis, system};
+use super::{analysis, coordinates, system};
 
 fn operations(source: &str) -> usize {
     let analysis = analysis(source.parse().expect("tokens"));
@@ -49,11 +49,7 @@ fn coordinates_of_bodies_and_joints_stand_in_order() {
          mass { x: 1 } tree { for i in 1..3 { joint[i]: hinge(arm[i - 1].at([1, 0, 0]), arm[i].at([0, 0, 0]), [0, 0, 1]) } \
          last[7]: cylinder(ground.at([0, 0, 0]), arm[3].at([0, 0, 0]), [0, 0, 1]) } force { joint[1].angle: dot(joint[2].angle), last[7].slide: 1 } }",
     );
-    let names: Vec<&str> = model
-        .coord_elements
-        .iter()
-        .map(|c| c.name.as_str())
-        .collect();
+    let names = coordinates(&model);
     let bodies = [
         "x",
         "base.x",
@@ -101,13 +97,8 @@ fn pictures_know_joints_of_the_tree() {
     assert_eq!(kinds("tree").len(), 3);
 }
 
-macro_rules! cases {
-    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
-        $(#[test] fn $name() { check_errors($source, &[$($message),+]); })*
-    };
-}
-
 cases! {
+    check_errors;
     no_call: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «a» }" => "a joint of the tree is written `name: pin(p, q)`; joints of the tree are `pin`";
     no_name: "bodies { planar a { mass: 1, inertia: 1 } } tree { «pin»(ground.at([0, 0]), a.at([0, 0])) }" => "a joint needs a name";
     no_joint: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «pinn»(ground.at([0, 0]), a.at([0, 0])) }" => "no joint of the tree is called `pinn`; did you mean `pin`?";

@@ -230,13 +230,8 @@ fn plain_numbers_are_given_a_unit_by_a_factor() {
     }
 }
 
-macro_rules! cases {
-    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
-        $(#[test] fn $name() { check($source, &[$($message),+]); })*
-    };
-}
-
 cases! {
+    check;
     // Sums and equations.
     added: "params { a = 1 [m/s^2] } coords { x [m] } mass { x: 1 } output { o = x + «a» }" => "adds m/s^2 to m";
     subtracted: "params { a = 1 [N] } coords { x [m] } mass { x: 1 } output { o = x - 2 - «3 * a» + x }" => "subtracts N from m";
