@@ -1,6 +1,6 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use tests::{at, at_rest, cause};
+use tests::{at, at_rest, cause, corner};
 use ukcore::simulate::Switching;
 use ukcore::{Error, Method, Simulation, State, lost_reactions};
 
@@ -393,7 +393,7 @@ fn a_drive_that_comes_to_a_dead_centre_is_told() {
         span: d,
         ..
     } = linkage;
-    let limit = ((a * a + d * d - (b + c).powi(2)) / (2.0 * a * d)).acos();
+    let limit = corner(a, d, b + c);
     for w in [1.0, -0.5, 300.0] {
         linkage.w = w;
         let end = (limit.copysign(w) - 0.5) / w;

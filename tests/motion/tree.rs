@@ -117,19 +117,11 @@ chain! {
     { angle[i] = link[i].angle }
 }
 
-/// A random state with unit quaternions, and rates that keep them so.
 fn random_state<M: Mechanism>(random: &mut Random) -> State {
-    let n = M::SPEC.coords.len();
-    let (mut q, mut v) = (random.vector(n), random.vector(n));
-    for (at, name) in M::SPEC.coords.iter().enumerate() {
-        if name.ends_with(".e0") {
-            let norm = q[at..at + 4].iter().map(|x| x * x).sum::<f64>().sqrt();
-            q[at..at + 4].iter_mut().for_each(|x| *x /= norm);
-            let along: f64 = (at..at + 4).map(|i| q[i] * v[i]).sum();
-            (at..at + 4).for_each(|i| v[i] -= along * q[i]);
-        }
+    State {
+        t: 0.7,
+        ..random.turned(M::SPEC)
     }
-    State { t: 0.7, q, v }
 }
 
 /// The outputs at all samples.

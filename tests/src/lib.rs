@@ -10,7 +10,7 @@ mod oracle;
 mod random;
 mod values;
 
-pub use linkage::FourBar;
+pub use linkage::{FourBar, corner, rocker};
 pub use oracle::{Buffers, Dense, digits, pseudo_inverse, singular_values, straight};
 pub use random::Random;
 pub use values::{FORMULAS, accelerations, difference, outputs, rates, residuals, solver_by};

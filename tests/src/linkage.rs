@@ -1,4 +1,4 @@
-//! The linkage that many tests look at.
+//! The linkage that many tests look at, and closed forms of planar ones.
 
 ukcore::multibody! {
     /// The four-bar linkage of docs/planar.md, of bodies with coordinates of their own, with its reactions.
@@ -26,4 +26,18 @@ ukcore::multibody! {
         start crossed(crank = 1.0) { bar[0].angle = crank; bar[1].angle near -1.2; bar[2].angle near -2.0 }
         start crank(crank = 1.0) { bar[0].angle = crank }
     }
+}
+
+/// The angle between two sides of a triangle that are `a` and `b` long, where the third is `c`, by the law of cosines.
+#[must_use]
+pub fn corner(a: f64, b: f64, c: f64) -> f64 {
+    ((a * a + b * b - c * c) / (2.0 * a * b)).acos()
+}
+
+/// The angle of the rocker of a four-bar linkage with these lengths of crank, coupler and rocker and this distance of their bearings; it
+/// lies above the diagonal from the crank's pin to its bearing where `above` is 1, below where that is −1.
+#[must_use]
+pub fn rocker([a, b, c]: [f64; 3], span: f64, crank: f64, above: f64) -> f64 {
+    let (x, y) = (a * crank.cos() - span, a * crank.sin());
+    y.atan2(x) - above * corner(x.hypot(y), c, b)
 }

@@ -2,6 +2,7 @@
 
 use ukcore::manifold::Projector;
 use ukcore::model::Model;
+use ukcore::spec::Spec;
 use ukcore::{Prepared, State};
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
@@ -39,6 +40,19 @@ impl Random {
             q: self.vector(n),
             v: self.vector(n),
         }
+    }
+
+    /// A random state at t = 0 of a mechanism with spatial bodies: quaternions have the length 1, and rates that keep it.
+    pub fn turned(&mut self, spec: &Spec) -> State {
+        let (mut q, mut v) = (self.vector(spec.n()), self.vector(spec.n()));
+        let quaternions = (0..spec.n()).filter(|i| spec.coords[*i].ends_with(".e0"));
+        for at in quaternions {
+            let norm = q[at..at + 4].iter().map(|x| x * x).sum::<f64>().sqrt();
+            q[at..at + 4].iter_mut().for_each(|x| *x /= norm);
+            let along: f64 = (at..at + 4).map(|i| q[i] * v[i]).sum();
+            (at..at + 4).for_each(|i| v[i] -= along * q[i]);
+        }
+        State { t: 0.0, q, v }
     }
 
     /// A model with other parameters and a consistent state, each near what it is by default: not all parameters admit the default start.

@@ -71,20 +71,11 @@ impl Pose {
     }
 }
 
-/// A random state with unit quaternions, and rates that keep them so.
-pub(crate) fn random_state(random: &mut Random, bodies: usize) -> State {
-    let (mut q, mut v) = (random.vector(7 * bodies), random.vector(7 * bodies));
-    for body in 0..bodies {
-        let at = 7 * body + 3;
-        let norm = q[at..at + 4].iter().map(|x| x * x).sum::<f64>().sqrt();
-        q[at..at + 4].iter_mut().for_each(|x| *x /= norm);
-        let along: f64 = (at..at + 4).map(|i| q[i] * v[i]).sum();
-        (at..at + 4).for_each(|i| v[i] -= along * q[i]);
-    }
+pub(crate) fn random_state<M: Mechanism>(random: &mut Random) -> State {
+    let state = random.turned(M::SPEC);
     State {
         t: random.signed(),
-        q,
-        v,
+        ..state
     }
 }
 
@@ -92,7 +83,7 @@ pub(crate) fn random_state(random: &mut Random, bodies: usize) -> State {
 fn rows_of_spatial_joints_are_those_of_rotations() {
     let mut random = Random::new(5);
     for _ in 0..50 {
-        let state = random_state(&mut random, 2);
+        let state = random_state::<Joints>(&mut random);
         let mechanism: ukcore::Prepared = Joints::default().prepared();
         let phi = residuals(&mechanism, state.t, &state.q);
         let rate = rates(&mechanism, state.t, &state.q, &state.v);
@@ -299,7 +290,7 @@ fn a_driven_body_turns_by_the_angle_about_the_axis() {
 fn kinetic_energy_is_that_of_a_rigid_body() {
     let mut random = Random::new(6);
     for _ in 0..20 {
-        let state = random_state(&mut random, 2);
+        let state = random_state::<Joints>(&mut random);
         let mechanism: ukcore::Prepared = Joints::default().prepared();
         let energy = mechanism.energy(state.t, &state.q, &state.v);
         let (a, b) = (

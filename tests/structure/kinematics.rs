@@ -6,8 +6,8 @@ mod refusals;
 
 use std::f64::consts::{PI, TAU};
 
-use tests::assert_close;
 use tests::{FourBar, at_rest};
+use tests::{assert_close, corner, rocker};
 use ukcore::studies::Kinematics;
 use ukcore::{Error, Mechanism, State, kinematics};
 
@@ -279,7 +279,7 @@ fn four_bars_turn_or_swing() {
         .unwrap();
     let found = swept(&swings, &start, "bar[0].angle", -PI..PI, 360);
     let ([a, b, c], d) = (swings.l, swings.span);
-    let limit = ((a * a + d * d - (b + c).powi(2)) / (2.0 * a * d)).acos();
+    let limit = corner(a, d, b + c);
     assert_eq!(found.limits.len(), 2);
     for (found, expected) in found.limits.iter().zip([-limit, limit]) {
         assert_close("limit", found.drives[0].1, expected, 1e-13);
@@ -324,9 +324,7 @@ fn four_bars_turn_or_swing() {
         .enumerate()
     {
         let p = [a * crank.cos() - d, a * crank.sin()];
-        let e = p[0].hypot(p[1]);
-        let inner = ((e * e + c * c - b * b) / (2.0 * e * c)).acos();
-        let rocker = p[1].atan2(p[0]) - inner;
+        let rocker = rocker([a, b, c], d, crank, 1.0);
         assert_close("rocker", (rockers[k] - rocker).sin(), 0.0, 1e-12);
         let coupler = (c * rocker.sin() - p[1]).atan2(c * rocker.cos() - p[0]);
         let speed = a * (rocker - crank).sin() / (b * (coupler - rocker).sin());
@@ -495,7 +493,7 @@ fn a_motor_reaches_its_limit_in_time() {
     let guess = at_rest(&[0.2, 2.0, 1.2]);
     let start = ukcore::assemble(&driven, &guess, &[]).unwrap();
     let found = swept(&driven, &start, "t", 0.0..10.0, 100);
-    let limit = ((1.5_f64.powi(2) + 4.0 - 2.2_f64.powi(2)) / 6.0).acos();
+    let limit = corner(1.5, 2.0, 2.2);
     assert_eq!(found.limits.len(), 1);
     assert_close(
         "limit",
@@ -543,8 +541,7 @@ ukcore::multibody! {
 /// Where the ground is says nothing of how far a mechanism moves: dead centres are found wherever it stands, to rounding of positions.
 #[test]
 fn dead_centres_far_from_the_origin() {
-    let reach = |a: f64, b: f64, c: f64| ((a * a + b * b - c * c) / (2.0 * a * b)).acos();
-    let (arm, wing) = (reach(0.3, 0.4, 0.44), PI - reach(0.24, 0.4, 0.5));
+    let (arm, wing) = (corner(0.3, 0.4, 0.44), PI - corner(0.24, 0.4, 0.5));
     for o in [
         [0.0, 0.0],
         [1e3, 0.0],

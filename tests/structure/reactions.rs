@@ -194,7 +194,7 @@ fn spatial<M: Mechanism>(of_a: bool) {
     let inertia = Matrix3::new(0.4, 0.05, -0.04, 0.05, 0.5, 0.03, -0.04, 0.03, 0.6);
     let (mut sizes, mut found) = (0.0, 0);
     for _ in 0..30 {
-        let sketch = crate::joints::random_state(&mut random, 2);
+        let sketch = crate::joints::random_state::<M>(&mut random);
         let Some((start, x, out)) = motion::<M>(sketch) else {
             continue;
         };

@@ -94,13 +94,9 @@ fn state(mechanism: &Prepared, name: &str, options: StartOptions) -> State {
     state
 }
 
-/// The rocker's angle of the linkage by the law of cosines; it lies above the diagonal from crank pin to bearing, or below.
+/// The rocker's angle of the linkage.
 fn rocker(crank: f64, above: f64) -> f64 {
-    let ([a, b, c], span) = ([0.5, 2.0, 1.5], 2.0_f64);
-    let (x, y) = (a * crank.cos() - span, a * crank.sin());
-    let diagonal = x.hypot(y);
-    let between = ((diagonal * diagonal + c * c - b * b) / (2.0 * diagonal * c)).acos();
-    y.atan2(x) - above * between
+    tests::rocker([0.5, 2.0, 1.5], 2.0, crank, above)
 }
 
 #[test]

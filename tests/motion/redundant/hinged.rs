@@ -1,6 +1,7 @@
 //! A four-bar linkage of spatial bodies with hinges, all in one plane: what the rows across that plane say carries no rounding at all, and
 //! is no measure for what the others say.
 
+use tests::corner;
 use ukcore::{Error, Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -21,9 +22,7 @@ impl Hinged {
     fn angles(&self, crank: f64) -> [f64; 3] {
         let (y, x) = crank.sin_cos();
         let (x, y) = (self.d - self.a * x, -self.a * y);
-        let span = x.hypot(y);
-        let cosine = (self.b * self.b + span * span - self.c * self.c) / (2.0 * self.b * span);
-        let coupler = y.atan2(x) + cosine.acos();
+        let coupler = y.atan2(x) + corner(self.b, x.hypot(y), self.c);
         let (sin, cos) = coupler.sin_cos();
         let last = (y - self.b * sin).atan2(x - self.b * cos);
         [crank, coupler, last]

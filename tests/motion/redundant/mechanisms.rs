@@ -1,6 +1,6 @@
 //! Mechanisms with more constraints than they need, which shows on the constraints alone.
 
-use tests::at_rest;
+use tests::{at_rest, corner};
 use ukcore::State;
 
 ukcore::multibody! {
@@ -46,8 +46,7 @@ impl SpatialFourBar {
         } = *self;
         let p = [l1 * crank.cos(), l1 * crank.sin()];
         let (dx, dy) = (base - p[0], -p[1]);
-        let far = dx.hypot(dy);
-        let coupler = dy.atan2(dx) + ((l2 * l2 + far * far - l3 * l3) / (2.0 * l2 * far)).acos();
+        let coupler = dy.atan2(dx) + corner(l2, dx.hypot(dy), l3);
         let end = [p[0] + l2 * coupler.cos(), p[1] + l2 * coupler.sin()];
         let rocker = end[1].atan2(end[0] - base);
         let bodies = [

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{Press, swept};
-use tests::assert_close;
+use tests::{assert_close, corner, rocker};
 use ukcore::studies::Kinematics;
 use ukcore::{Mechanism, State, assemble, kinematics};
 
@@ -160,7 +160,7 @@ fn four_bars_near_their_change_point() {
         ] {
             let found = swept(&bars, &start, "a", 2.0..to, n);
             if d < 0.0 {
-                let limit = ((20.0 - (6.0 + d).powi(2)) / 16.0).acos();
+                let limit = corner(2.0, 4.0, 6.0 + d);
                 let limit = if to > 2.0 { limit } else { -limit };
                 assert_eq!(found.limits.len(), 1, "{d} {n}");
                 assert_close("limit", found.limits[0].drives[0].1, limit, 1e-10);
@@ -171,11 +171,7 @@ fn four_bars_near_their_change_point() {
                 let [a, b, c] = posture.state.q[..] else {
                     unreachable!()
                 };
-                // By the triangle on the diagonal from the rocker's hinge, on the same side of it.
-                let (x, y) = (2.0 * a.cos() - 4.0, 2.0 * a.sin());
-                let e = x.hypot(y);
-                let inner = ((e * e + 9.0 - (3.0 + d).powi(2)) / (6.0 * e)).acos();
-                let rocker = y.atan2(x) - inner;
+                let rocker = rocker([2.0, 3.0 + d, 3.0], 4.0, a, 1.0);
                 assert_close("rocker", (c - rocker).sin(), 0.0, 1e-10);
                 assert!(
                     (c - rocker).cos() > 0.0 && (b - c).sin() < 0.0,
