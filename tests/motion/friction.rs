@@ -3,7 +3,7 @@
 
 use tests::{assert_all_close, assert_close, at, cause, worst};
 use ukcore::simulate::{Direction, Ending, Sample, Switching};
-use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
+use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, Trajectory};
 
 /// A puck on a spring from the origin, rubbed by a force of size `f`.
 macro_rules! puck {
@@ -99,9 +99,8 @@ fn forms(k: f64) -> [(&'static str, Prepared); 6] {
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 fn run(mechanism: &Prepared, along: [f64; 2], q: f64, v: f64) -> Simulation {
-    let at = |x: f64| vec![x * along[0], x * along[1]];
-    let (q, v) = (at(q), at(v));
-    Simulation::new(mechanism.clone()).start(State { t: 0.0, q, v })
+    let [q, v] = [q, v].map(|x| along.map(|part| x * part));
+    Simulation::new(mechanism.clone()).start(at(&q, &v))
 }
 
 /// Coordinate along the line of the motion, from `q` with the velocity `v`, on a spring of stiffness `k`, until it is held.

@@ -92,9 +92,8 @@ pub(crate) fn alone<M: Mechanism + Clone>(
 where
     Prepared: From<M>,
 {
-    let (q, v) = (vec![a], vec![rate]);
     let run = Simulation::new(mechanism.clone()).tolerance(1e-13);
-    let run = run.start(State { t: 0.0, q, v }).until(until);
+    let run = run.start(at(&[a], &[rate])).until(until);
     let run = run.expect("a motion of one coordinate");
     let end = run.last().expect("an end");
     [end.q[0], end.v[0]]
@@ -231,7 +230,6 @@ fn switches_have_their_zeros_on_crossings() {
         for rate in [3.0, 4.9, -7.3] {
             let g = 0.0;
             let until = if rate > 4.0 { -2.0 } else { 2.0 };
-            let (q, v) = (vec![0.3], vec![rate]);
             let one = Simulation::new(Crank {
                 g,
                 f,
@@ -242,7 +240,7 @@ fn switches_have_their_zeros_on_crossings() {
                 e,
             })
             .tolerance(1e-13);
-            let one = one.start(State { t: 0.0, q, v }).every(0.01).until(until);
+            let one = one.start(at(&[0.3], &[rate])).every(0.01).until(until);
             let one = one.expect("a motion of one coordinate");
             for (method, tolerance) in METHODS {
                 let place =

@@ -73,7 +73,7 @@ fn thin_rods_hang_on_crosses() {
             &swinging(&state, 1.5 * g / l),
             1e-11,
         );
-        let free = accelerations(&RodEnd::default(), &at(&p, &v));
+        let free = accelerations(RodEnd::default(), &at(&p, &v));
         let along = [
             -a.sin() * b.cos() * found[0]
                 - a.cos() * b.sin() * found[1]
@@ -139,13 +139,13 @@ fn links_of_the_tree_need_no_mass() {
     let bob = Bob::default();
     for _ in 0..20 {
         let state = turned(&mut random);
-        let found = accelerations(&Bob::default(), &state);
+        let found = accelerations(Bob::default(), &state);
         assert_all_close("a bob", &found, &swinging(&state, bob.g / bob.l), 1e-11);
         let [q, v] = [random.vector(3), random.vector(3)];
-        let expected = accelerations(&Rates::default(), &at(&q, &v));
+        let expected = accelerations(Rates::default(), &at(&q, &v));
         assert_all_close(
             "gimbals",
-            &accelerations(&Gimbals::default(), &at(&q, &v)),
+            &accelerations(Gimbals::default(), &at(&q, &v)),
             &expected,
             1e-11,
         );

@@ -1,7 +1,7 @@
 //! Places where motions meet that part again: a state tells no more in which way one goes on. Nonholonomic rows that vanish where all
 //! motions lead, and branches that touch. Where a direction tells them apart, or one of them is smooth alone, a motion goes on.
 
-use tests::{assert_close, at};
+use tests::{assert_close, at, cause};
 use ukcore::{Error, Mechanism, Method, Simulation, State, Trajectory};
 
 ukcore::multibody! {
@@ -141,12 +141,9 @@ fn runs(
         let what = format!("{method}, {tolerance:e}");
         let run = Simulation::new(mechanism.clone()).start(start.clone());
         let run = run.method(method).tolerance(tolerance).until(until);
-        let run = run.map_err(|failure| match failure.error {
-            Error::At { t, source, .. } => match *source {
-                Error::Singular { constraints } => (t, constraints),
-                other => panic!("{what}: at {t}: {other}"),
-            },
-            other => panic!("{what}: {other}"),
+        let run = run.map_err(|failure| match cause(&failure.error) {
+            (t, Error::Singular { constraints }) => (t, constraints.clone()),
+            (t, other) => panic!("{what}: at {t}: {other}"),
         });
         (what, tolerance, run)
     })

@@ -312,7 +312,7 @@ fn an_arm_of_12_hinges_accelerates_alike_in_both_sets_of_coordinates() {
         .prepared()
         .acceleration(0.0, &state.q, &state.v, &mut a);
     assert!(safe > 0.5, "{safe}");
-    let own = own_state(0.0, &outputs(&Arm::default(), &state));
+    let own = own_state(0.0, &outputs(Arm::default(), &state));
     let mut solver = Solver::new(OwnArm::default(), SolverOptions::default());
     let solution = solver.solve(0.0, &own.q, &own.v).expect("accelerations");
     assert_eq!(solution.degrees_of_freedom, 12);
@@ -514,10 +514,10 @@ macro_rules! held {
                 let Ok(state) = assemble($tree::default(), &random_state::<$tree>(&mut random), &[]) else {
                     continue;
                 };
-                let out = outputs(&$tree::default(), &state);
+                let out = outputs($tree::default(), &state);
                 let (bodies, force) = out.split_at($n * width);
                 let same = own(state.t, bodies);
-                let expected = outputs(&$own::default(), &same);
+                let expected = outputs($own::default(), &same);
                 assert!(expected.iter().any(|x| x.abs() > 1e-3), "{expected:?}");
                 assert_all_close("force", force, &expected, 1e-9);
                 found += 1;

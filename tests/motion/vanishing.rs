@@ -4,7 +4,7 @@
 mod apexes;
 
 use tests::{apart, at, cause, largest, worst};
-use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State};
+use ukcore::{Ensemble, Error, Method, Prepared, Simulation};
 
 ukcore::multibody! {
     /// A bead on Cassini's oval: a lemniscate for e = 0, two loops for e < 0, one for e > 0.
@@ -75,9 +75,8 @@ fn simulation(
     method: Method,
     tolerance: f64,
 ) -> Simulation {
-    let (q, v) = (q.to_vec(), v.to_vec());
     Simulation::new(mechanism)
-        .start(State { t: 0.0, q, v })
+        .start(at(q, v))
         .method(method)
         .tolerance(tolerance)
         .max_steps(100_000)

@@ -106,8 +106,8 @@ spatial! {
 /// A consistent state near a random sketch, if there is one, its accelerations, and its outputs.
 fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
     let start = assemble(M::default(), &sketch, &[]).ok()?;
-    let acceleration = accelerations(&M::default(), &start);
-    let outputs = outputs(&M::default(), &start);
+    let acceleration = accelerations(M::default(), &start);
+    let outputs = outputs(M::default(), &start);
     Some((start, acceleration, outputs))
 }
 
@@ -457,7 +457,7 @@ fn reactions_are_those_of_ideal_constraints() {
             vec![0.8 * angle.sin(), -0.8 * angle.cos()],
             vec![speed * angle.cos(), speed * angle.sin()],
         );
-        let mut solver = solver_by(FORMULAS[k % 4], &Wire::default());
+        let mut solver = solver_by(FORMULAS[k % 4], Wire::default());
         let solution = solver.solve(0.0, &q, &v).unwrap();
         let out = outputs(solver.mechanism(), &at(&q, &v));
         let expected = [0, 1].map(|k| 2.0 * solution.multipliers[0] * q[k]);
@@ -530,7 +530,7 @@ fn loops_of_a_tree_have_reactions() {
             ..FourBar::default()
         };
         let pinned = bodies.start("open", &options).expect("a start");
-        let of_tree = outputs(&Hung::default(), &hung);
+        let of_tree = outputs(Hung::default(), &hung);
         let of_bodies = outputs(&bodies, &pinned);
         assert_all_close(
             "reaction",
