@@ -1,6 +1,7 @@
 //! Rows of A that vanish together with copies of theirs, as over the apex of a cone that is told twice, and motions that turn just before.
 
-use ukcore::{Error, Method, Prepared, Simulation, State};
+use tests::{at, cause, worst};
+use ukcore::{Error, Method, Prepared, Simulation};
 
 ukcore::multibody! {
     /// A point on a cone.
@@ -61,11 +62,7 @@ fn thrown(
 ) -> Result<(), String> {
     let mechanism = mechanism.into();
     let u = f64::sqrt(g * (from + from * top));
-    let mut start = State {
-        t: 0.0,
-        q: vec![-from, 0.0, -from],
-        v: vec![u, 0.0, u],
-    };
+    let mut start = at(&[-from, 0.0, -from], &[u, 0.0, u]);
     start.q.resize(mechanism.spec().n(), 0.0);
     start.v.resize(mechanism.spec().n(), 0.0);
     let simulation = Simulation::new(mechanism).start(start).method(method);
@@ -77,8 +74,7 @@ fn thrown(
     let way = |t: f64| -from + u * t - 0.25 * g * t * t;
     match run {
         Ok(run) if top < 0.0 => {
-            let off = run.samples().map(|s| (s.q[0] - way(s.t)).abs());
-            let off = off.fold(0.0, f64::max);
+            let off = worst(&run, |s| (s.q[0] - way(s.t)).abs());
             let bound = 1e2 * tolerance + 1e-8;
             (off < bound)
                 .then_some(())
@@ -89,10 +85,7 @@ fn thrown(
         Err(failure) => {
             let apex = (u - (u * u - g * from).sqrt()) * 2.0 / g;
             let end = failure.trajectory.last().expect("it has begun").t;
-            let Error::At { source, .. } = &failure.error else {
-                return Err(failure.to_string());
-            };
-            let Error::Singular { constraints } = &**source else {
+            let Error::Singular { constraints } = cause(&failure.error).1 else {
                 return Err(failure.to_string());
             };
             let named = constraints.iter().any(|c| c == "cone" || c == "copy");
@@ -150,11 +143,7 @@ fn a_node_that_is_told_twice_is_passed() {
     for method in METHODS {
         for tolerance in [1e-4, 1e-7, 1e-10] {
             for speed in [2.1, 4.7] {
-                let start = State {
-                    t: 0.0,
-                    q: vec![1.0, 0.0],
-                    v: vec![0.0, speed],
-                };
+                let start = at(&[1.0, 0.0], &[0.0, speed]);
                 let simulation = Simulation::new(Oval::default()).start(start).method(method);
                 let run = simulation.tolerance(tolerance).until(1.5 * length / speed);
                 let place = format!("{method}, {tolerance:e}, {speed}");

@@ -1,7 +1,8 @@
 //! Switches whose zeros lie at round times and places, where steps are looked at, and motions that stay at a zero.
 
+use tests::at;
 use ukcore::simulate::{Direction, Ending};
-use ukcore::{Event, Mechanism, Method, Simulation, State, Trajectory};
+use ukcore::{Event, Mechanism, Method, Simulation, Trajectory};
 
 ukcore::multibody! {
     /// A thrust between two times.
@@ -61,13 +62,9 @@ const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 fn run(mechanism: impl Mechanism + 'static, v: f64, method: Method, end: f64) -> Trajectory {
     let n = ukcore::Prepared::from(&mechanism).spec().n();
-    let (q, mut rates) = (vec![0.0; n], vec![0.0; n]);
+    let mut rates = vec![0.0; n];
     rates[0] = v;
-    let start = State {
-        t: 0.0,
-        q,
-        v: rates,
-    };
+    let start = at(&vec![0.0; n], &rates);
     let run = Simulation::new(mechanism)
         .start(start)
         .method(method)
@@ -173,11 +170,7 @@ fn a_block_that_sticks_to_its_belt_ends_the_run_there() {
             for x in [0.0, 0.01, -0.01] {
                 for direction in [Direction::Both, Direction::Rising] {
                     let place = format!("{method}, {speed}, {x}, {direction:?}");
-                    let start = State {
-                        t: 0.0,
-                        q: vec![x],
-                        v: vec![0.0],
-                    };
+                    let start = at(&[x], &[0.0]);
                     let simulation = || {
                         let belt = Belt {
                             speed,
