@@ -469,7 +469,8 @@ impl Driver<'_> {
             return Err(Refusal::Unplanned);
         };
         if self.decide(&found, trial, made)? {
-            self.passage.ahead = None;
+            // Another one that is passed may lie before it.
+            self.passage.ahead.take_if(|ahead| ahead.gap != 0.0);
             return Ok(());
         }
         let good = self.suits(&found, trial, gap);

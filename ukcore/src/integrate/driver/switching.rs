@@ -33,7 +33,7 @@ impl Driver<'_> {
     /// Chooses branches at the start of the run, and evaluates f there.
     pub(super) fn choose(&mut self) -> Result<(), Error> {
         let zeros = self.equations.choose(self.scheme.start());
-        let zeros = zeros.map_err(|stuck| self.stuck(stuck))?;
+        let zeros = zeros.map_err(|stuck| self.stuck(&stuck))?;
         match self.begin_at(&zeros) {
             Err(error) => self.launch()?.then_some(()).ok_or(error),
             begun => begun,
@@ -121,7 +121,11 @@ impl Driver<'_> {
             }
         };
         let turned = self.equations.turn(&switches, self.scheme.start());
-        if turned.map_err(|stuck| self.stuck(stuck))? {
+        let turned = turned.map_err(|stuck| {
+            self.equations.flip(&stuck.0);
+            self.rests(stuck)
+        });
+        if turned? {
             self.turned.clone_from(&switches);
             return self.begin_at(&switches);
         }
@@ -161,7 +165,7 @@ impl Driver<'_> {
         let landed = !self.equations.switches.targets.is_empty();
         self.landings += usize::from(landed);
         let targets = self.equations.arrive(self.scheme.start());
-        let targets = targets.map_err(|stuck| self.stuck(stuck))?;
+        let targets = targets.map_err(|stuck| self.rests(stuck))?;
         // Steps go across lengths, whether they go onto other switches or not.
         if self.equations.course.pace.is_slow() {
             let across = self.equations.carried_across(self.scheme.start());
@@ -225,13 +229,19 @@ impl Driver<'_> {
         }
     }
 
-    fn stuck(&mut self, Stuck(switches): Stuck) -> Error {
-        self.rests.clone_from(&switches);
-        self.equations.course.stuck(&switches)
+    fn stuck(&mut self, Stuck(switches): &Stuck) -> Error {
+        self.equations.course.stuck(switches)
     }
 
-    /// Whether a motion that stays at the zeros of switches has met there what its run was to end with. A step onto a zero ends beside it
-    /// by its error: that counts as met which has its own zero no farther behind than a step over this one would end.
+    /// The error of a motion that is stuck in the branches that it came in.
+    fn rests(&mut self, stuck: Stuck) -> Error {
+        let error = self.stuck(&stuck);
+        self.rests = stuck.0;
+        error
+    }
+
+    /// Whether a motion that stays at the zeros of switches meets there what its run was to end with. A step onto a zero ends before it, or
+    /// behind, by its error: what has its own zero on the rest of the way counts as met.
     pub(super) fn ends_at_rest(&mut self) -> bool {
         let switches = std::mem::take(&mut self.rests);
         if switches.is_empty() || self.shown.is_some() {
@@ -243,19 +253,15 @@ impl Driver<'_> {
         let mut values = vec![0.0; self.equations.problem.switches()];
         let (mut rates, mut behind) = (values.clone(), values.clone());
         let direction = self.equations.course.along;
-        for _ in 0..2 {
-            let problem = &mut *self.equations.problem;
-            if problem.acceleration(at, &mut acceleration).is_err() {
-                return false;
-            }
-            problem.switching(at, &mut values);
-            problem.switching_rate(at, &acceleration, &mut rates);
-            // In the branches behind them it goes back.
-            let back = |k: &usize| values[*k] * rates[*k] * direction > 0.0;
-            if !switches.iter().any(back) {
-                break;
-            }
-            self.equations.flip(&switches);
+        let problem = &mut *self.equations.problem;
+        if problem.acceleration(at, &mut acceleration).is_err() {
+            return false;
+        }
+        problem.switching(at, &mut values);
+        problem.switching_rate(at, &acceleration, &mut rates);
+        // What lies behind them already the step has met.
+        if (switches.iter()).any(|k| values[*k] * rates[*k] * direction > 0.0) {
+            return false;
         }
         let left = switches.iter().map(|k| (values[*k] / rates[*k]).abs());
         let mut way = left.fold(f64::EPSILON * now.t.abs(), f64::max);

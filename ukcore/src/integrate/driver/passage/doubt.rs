@@ -51,7 +51,9 @@ impl Driver<'_> {
             found.gap = f64::NAN;
         }
         let first = first.or(Some(left).filter(|_| found.isolated));
-        *doubted = first.filter(|_| left > 0.0).map(|first| (found.t, first));
+        // One that is passed is another one.
+        let ahead = left > 0.0 && found.gap != 0.0;
+        *doubted = first.filter(|_| ahead).map(|first| (found.t, first));
         found
     }
 
