@@ -431,6 +431,8 @@ cases! {
     kinetic_not_quadratic: "coords { x } «kinetic» { dot(x).powi(4) }" => "must be quadratic in the velocities";
     kinetic_without_velocity: "coords { x } «kinetic» { x }" => "contains no square of a velocity";
     negative_mass: "coords { x } mass { «x»: -1.0 }" => "a mass must not be negative";
+    pair_in_both_orders: "coords { x, y } mass { x: 1.0, y: 1.0, (x, y): 0.5, («y, x»): 0.5 }" => "`(y, x)` is the entry that stands as `(x, y)` already, which sets both M[y, x] and M[x, y]; write it once";
+    pairs_of_loops: "coords { x[3] } mass { x: 1.0, for i in 1..3 { (x[i - 1], x[i]): 0.5 } for i in 1..3 { («x[i], x[i - 1]»): 0.5 } }" => "`(x[1], x[0])` is the entry that stands as `(x[0], x[1])` already";
     diagonal_as_a_pair: "coords { x } mass { (x, «x»): 1.0 }" => "a diagonal entry of M is written `x: …`";
     comma_between_sections: "coords { x }«,» mass { x: 1 }" => "nothing stands between sections; remove this";
     member_in_parentheses: "coords { x[2] } mass { x«(»0): 1, x(1): 2 }" => "a member of a family is chosen in brackets: `x[0]: 1.0`";

@@ -384,19 +384,33 @@ impl<'m> Lowering<'m> {
 
     /// The lower triangle of M.
     fn mass(&mut self, decl: &Declaration, top: &Scope<'m>) -> BTreeMap<(usize, usize), (Id, Loc)> {
-        let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
+        /// What is said of a place in M: its values, where it stands first, and row and column as written there.
+        type Said = (Vec<Id>, Loc, (usize, usize));
+        let mut mass: BTreeMap<(usize, usize), Said> = BTreeMap::new();
         top.unroll(&decl.mass, self.diag, &mut |entry, scope| {
-            for (place, value) in self.mass_entry(entry, scope) {
-                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
-                entries.0.push(value);
+            for ((row, column), value) in self.mass_entry(entry, scope) {
+                let place = (row.max(column), row.min(column));
+                let first = || (Vec::new(), entry.key.loc, (row, column));
+                let said = mass.entry(place).or_insert_with(first);
+                if said.2 == (row, column) {
+                    said.0.push(value);
+                } else {
+                    // A symmetric M written in full: its sum would be twice what is meant.
+                    let [x, y] = [row, column].map(|i| &self.model.coord_elements[i].name);
+                    let message = format!(
+                        "`({x}, {y})` is the entry that stands as `({y}, {x})` already, which sets both M[{x}, {y}] and M[{y}, {x}]; write it once"
+                    );
+                    let end = entry.other.as_ref().map_or(entry.key.loc, |other| other.loc);
+                    self.diag.error(entry.key.loc.to(end), message);
+                }
             }
         });
         let mass = mass.into_iter();
-        mass.map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
+        mass.map(|(at, (values, loc, _))| (at, (self.total_of(&values), loc)))
             .collect()
     }
 
-    /// Places in M with what is added there.
+    /// Rows and columns of M, as they are written, with what is added there.
     fn mass_entry(&mut self, entry: &MassEntry, scope: &Scope<'m>) -> Vec<((usize, usize), Id)> {
         let env = Env::new(scope, Place::Mass);
         let Some(other) = &entry.other else {
@@ -431,7 +445,7 @@ impl<'m> Lowering<'m> {
             return Vec::new();
         }
         self.expect_mass((row, column), value, entry.value.loc);
-        vec![((row.max(column), row.min(column)), value)]
+        vec![((row, column), value)]
     }
 
     /// The numbers of `value`, if it has this `shape`, or is 0; reports it, if not.
