@@ -4,6 +4,7 @@ mod parts;
 mod renaming;
 mod resolve;
 mod scope;
+mod sizes;
 mod tree;
 mod types;
 mod unused;

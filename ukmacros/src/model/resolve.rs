@@ -1,6 +1,7 @@
 //! Integer constants, families, loops; duplicates and reserved names.
 
 use super::scope::{MAX_MEMBERS, Scope, index_functions};
+use super::sizes;
 use super::tree;
 use super::types::{
     BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed, unit_of,
@@ -86,6 +87,7 @@ pub(crate) fn resolve(
     members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
         (&coord.key, &coord.docs, None)
     });
+    sizes::refuse(decl, &model, diag);
     let before = diag.len();
     members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
         (&body.key, &body.docs, None)

@@ -342,8 +342,13 @@ pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
 
 pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let mut key = declared(input, diag)?;
-    if let Some(Measure { loc, .. }) = key.measure.take() {
-        let message = "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared";
+    if let Some(Measure { loc, size, .. }) = key.measure.take() {
+        let size = size.map_or(String::new(), |name| {
+            format!("; an index is a constant, `const {name}: usize = 3;`, or a variable of a loop")
+        });
+        let message = format!(
+            "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared{size}"
+        );
         diag.error(loc, message);
     }
     Ok(key)
@@ -356,7 +361,7 @@ pub(super) fn declared(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
     let mut loc: Loc = name.span().into();
     let mut measure = None;
     while input.peek(syn::token::Bracket) {
-        if let Some(unit) = units::next(input) {
+        if let Some(unit) = units::next(input, loc.end) {
             measure = unit;
             break;
         }

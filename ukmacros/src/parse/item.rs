@@ -112,6 +112,8 @@ pub(crate) struct Coord {
 pub(crate) struct Measure {
     pub(crate) unit: Unit,
     pub(crate) loc: Loc,
+    /// What stands in the brackets, if that is one name and no space is before them: it may be meant as the size of a family.
+    pub(crate) size: Option<String>,
 }
 
 /// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.

@@ -224,21 +224,24 @@ pub(super) fn bare(number: &syn::ExprLit, input: ParseStream<'_>) -> syn::Result
     Err(syn::Error::new(name.span(), message))
 }
 
-/// The unit that comes next, if one does; nothing inside where it is in error.
-pub(super) fn next(input: ParseStream<'_>) -> Option<Option<Measure>> {
+/// The unit that comes next, behind what ends at `before`, if one does; nothing inside where it is in error.
+pub(super) fn next(input: ParseStream<'_>, before: Span) -> Option<Option<Measure>> {
     let inside = |input: ParseStream<'_>| {
         let inner;
         let bracket = syn::bracketed!(inner in input);
         let text: syn::LitStr = inner.parse()?;
-        Ok((text.value(), bracket.span.join()))
+        Ok((text.value(), bracket.span))
     };
     if !input.peek(syn::token::Bracket) || inside(&input.fork()).is_err() {
         return None;
     }
     let (text, span) = inside(input).ok()?;
+    let touches = before.end() == span.open().start();
+    let name = |text: &String| touches && text.chars().all(char::is_alphabetic);
     let measure = |unit| Measure {
         unit,
-        loc: span.into(),
+        loc: span.join().into(),
+        size: Some(text.clone()).filter(name),
     };
     Some(Unit::parse(&text).ok().map(measure))
 }

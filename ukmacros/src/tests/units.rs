@@ -58,6 +58,7 @@ fn constants_called_like_units_are_indices() {
     // Sizes, members beside others, entries of vectors by loops, by functions and by what is no unit; units of numbers.
     for body in [
         "const N: usize = 2; coords { x[N] } mass { x: 1 } force { x[0]: 3 [N] * sign(x[1]) }",
+        "params { m = 2, N = 3 } coords { x [m], y[s], f [N] } mass { x: m, y: N, f: 1 } output { o [m] = x, pull[N * s] = 1 * f * y }",
         "const N: usize = 2; coords { x[N + 1] } mass { x: 1 } output { for i in 0..N { y[i] = x[i] } y[N] = x[N] }",
         "const N: usize = 2; coords { x[N] } mass { x: 1 } force { for J in 0..2 { x[J]: [1.0, 2.0][J] } }",
         "const N: usize = 2; coords { x[N] } mass { x: 1 } force { x[0]: [1.0, 2.0][N - 1] }",
@@ -286,6 +287,14 @@ cases! {
     constant_like_a_unit_of_an_output: "const N: usize = 2; coords { x[N] } mass { x: 1 } output { pull[«N»] = x[0] }" => "`pull[N]` is one member of a family: `N` is the constant here, and no unit; rename the constant";
     constant_like_a_unit_of_an_integral: "const J: usize = 2; coords { x } mass { x: 1 } integral { work[«J»] = x }" => "`work[J]` is one member of a family";
     constant_like_a_unit_behind_a_quotient: "const N: usize = 2; params { f = (1 / 3.0) [«N»] } coords { x } mass { x: f }" => "`N` is the constant here, and no unit; rename the constant";
+    parameter_for_a_size: "params { N = 3 } coords { x«[N]» } mass { x: N }" => "`N` is a parameter: the size of a family is a constant, `const N: usize = 3;`; a unit has a space before it, `x [N]`";
+    members_of_a_parameter_for_a_size: "params { N = 3, m = 1 } coords { x«[N]» } mass { for i in 0..N { x[i]: m } } force { x[1]: 1 }" => "`N` is a parameter: the size of a family is a constant";
+    parameter_for_a_second_size: "params { m = 3 } coords { x[2]«[m]», y [m] } mass { x: m, y: m }" => "`m` is a parameter: the size of a family is a constant";
+    value_for_a_size: "let N = 3; coords { x«[N]» } mass { x: N }" => "`N` is a value: the size of a family is a constant";
+    coordinate_for_a_size: "coords { m, x«[m]» } mass { m: 1, x: 1 }" => "`m` is declared as something else: the size of a family is a constant";
+    size_that_is_nowhere: "coords { x«[N]» } mass { x: 1 }" => "no constant is called `N`: the size of a family is a constant, `const N: usize = 3;`; a unit has a space before it, `x [N]`";
+    parameter_for_an_index: "params { N = 3 } coords { x } mass { x: N } output { o«[N]» = x, p [N] = 1 * x }" => "`N` is a parameter: the size of a family is a constant";
+    parameter_for_the_size_of_parameters: "params { N = 3, k«[N]» = 2 } coords { x } mass { x: k * N }" => "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared; an index is a constant, `const N: usize = 3;`, or a variable of a loop";
     name_of_a_constant: "const s: f64 = 2.0; coords { x[«s»] } mass { x: 1 }" => "`s` is not an integer constant or loop variable; a unit is written so where no constant";
 }
 
