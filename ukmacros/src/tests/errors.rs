@@ -205,6 +205,22 @@ cases! {
     let_declared_twice: "coords { x } let u = x; let «u» = 2.0 * x; mass { x: 1.0 }" => "`u` is declared twice";
     let_used_before: "coords { x } let a = «b»; let b = x; mass { x: 1.0 }" => "unknown name `b`";
     reserved_word_as_a_name: "bodies { planar «box» { mass: 1.0, inertia: 1.0 } } holonomic { p: pin(ground.at([0, 0]), box.at([1, 0])) } output { a = box.x }" => "`box` is a reserved word of Rust; use another name, such as `box_`";
+    keywords_as_coordinates: "coords { «self», «async», x } mass { self: 1, async: 1, x: 1 } force { x: self * dot(async) }" => "`self` is a reserved word of Rust; use another name, such as `self_`", "`async` is a reserved word of Rust; use another name, such as `async_`";
+    keywords_as_parameters: "params { «fn» = 1, «move» = 2 «in» = 3 } coords { x } mass { x: fn + move } force { x: -in * x } output { for i in 0..2 { o[i] = i * in } }" => "`fn` is a reserved word of Rust; use another name, such as `fn_`", "`move` is a reserved word", "`in` is a reserved word";
+    keyword_as_a_family: "params { «ref»[2] = 1 } coords { «loop»[2] [m] } mass { loop: 1 } force { for i in 0..2 { loop[i]: ref[i] } }" => "`ref` is a reserved word", "`loop` is a reserved word";
+    keywords_as_constants_and_values: "const «break»: usize = 2; coords { x[break] } let «match» = x[0]; let f = |«use», u| use * u; mass { x: 1 } force { x[0]: f(match, 2) }" => "`break` is a reserved word", "`match` is a reserved word", "`use` is a reserved word";
+    keywords_as_results: "coords { x, y } mass { x: 1, y: 1 } holonomic { «if»: x = y } output { «true» = x + 1, «return» = y + reaction(if) } start «static» { x = 1 } start «let»(«as» = 1) { x = as }" => "`if` is a reserved word", "`true` is a reserved word", "`return` is a reserved word", "`static` is a reserved word", "`let` is a reserved word", "`as` is a reserved word";
+    keyword_as_a_body: "bodies { planar «crate» { mass: 1, inertia: 1 } } tree { «super»: pin(ground.at([0, 0]), crate.at([1, 0])) } output { a = crate.x + super.angle }" => "`crate` is a reserved word", "`super` is a reserved word";
+    keyword_as_a_loop_variable: "coords { x[2] } mass { for «mut» in 0..2 { x[mut]: 1 } }" => "`mut` is a reserved word";
+    keyword_behind_a_dot: "bodies { planar a { mass: 1, inertia: 1 } } output { o = a.«await» }" => "`await` is a reserved word";
+    keyword_that_is_none_of_a_name: "coords { x } mass { x: 1 } force { x: «while x { 1 }» }" => "not an equation's expression";
+    name_that_is_none: "coords { «_» } mass { _: 1 }" => "`_` names nothing; use another name, such as `unused`";
+    loop_without_a_variable: "coords { x } mass { for «_» in 0..2 { x: 1 } }" => "`_` names nothing; use another name, such as `unused`";
+    argument_without_a_name: "coords { x } let f = |«_», u| u; mass { x: 1 } output { o = f(1, x) }" => "`_` names nothing";
+    names_that_begin_with_digits: "params { «3k» = 2 } coords { «2x» } mass { 2x: 3k }" => "`3k` is no name, since it begins with a digit; use another name, such as `k3`", "`2x` is no name, since it begins with a digit; use another name, such as `x2`";
+    raw_names: "params { «r#box» = 1 } coords { «r#in» } mass { r#in: r#box }" => "`r#box` is reserved; use another name, such as `box_`", "`r#in` is reserved";
+    raw_names_of_what_is_built: "bodies { planar «r#fn» { mass: 1, inertia: 1 } } tree { «r#if»: pin(ground.at([0, 0]), r#fn.at([1, 0])) }" => "`r#fn` is reserved", "`r#if` is reserved";
+    value_with_a_reserved_name: "coords { x } let «gen» = 2 * x; let «sq» = |u| u; let { for i in 0..2 { d[«x»] = i } } mass { x: 1 } output { o = gen + gen, p = d[0] }" => "`gen` is reserved; choose another name", "`sq` is reserved", "`x` is not an integer constant or loop variable";
     // Syntax.
     let_within_a_section: "coords { x } mass { x: 1.0 } output { «let» u = x; o = u }" => "`let` stands beside sections, before the first that uses it";
     until_behind_the_braces: "coords { x } mass { x: 1.0 } start a { x = 1.0 } «until» 3.0 output { o = x }" => "`until` of a start stands before its braces: `start a until 2.0 { … }`";

@@ -25,6 +25,7 @@ mod tree;
 mod units;
 mod vectors;
 mod verify;
+mod words;
 
 use crate::analysis::Analysis;
 use crate::diag::{Diagnostic, Diagnostics};

@@ -94,11 +94,24 @@ impl<'m> Lowering<'m> {
 
     pub(super) fn lower_lets(&mut self, decl: &Declaration, top: &Scope<'m>) {
         for block in &decl.lets {
-            let block = std::slice::from_ref(block);
-            top.unroll(block, self.diag, &mut |binding, scope| {
-                self.binding(binding, scope);
-            });
+            let before = self.diag.len();
+            top.unroll(
+                std::slice::from_ref(block),
+                self.diag,
+                &mut |binding, scope| {
+                    self.binding(binding, scope);
+                },
+            );
             self.unfinished.clear();
+            if self.diag.len() > before {
+                // What is not declared because of an error is not unknown.
+                block.each(&mut |binding| {
+                    let name = binding.key.name.to_string();
+                    if !self.lets.contains_key(&name) {
+                        self.unknown.insert(name);
+                    }
+                });
+            }
         }
     }
 
