@@ -117,6 +117,15 @@ impl Diagnostics {
         found.iter_mut().skip(from).for_each(|d| d.loc = loc);
     }
 
+    /// Leaves of the errors from number `from` on those that differ in what they say.
+    pub(crate) fn distinct(&self, from: usize) {
+        let mut found = self.found.borrow_mut();
+        let mut told = BTreeSet::new();
+        let late = found.split_off(from);
+        let late = late.into_iter();
+        found.extend(late.filter(|d| told.insert(d.message.clone())));
+    }
+
     /// Shows names as `shown` has them. Of the errors at one of these `places`, each with what it is, the first is left: what is wrong in a
     /// part is wrong in all its members.
     pub(crate) fn within(&self, shown: &BTreeMap<String, String>, places: &[(Loc, String)]) {

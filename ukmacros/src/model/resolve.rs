@@ -93,6 +93,23 @@ pub(crate) fn resolve(
         (&body.key, &body.docs, None)
     });
     bodies(decl, &mut model, diag, before);
+    if !diag.is_empty() {
+        let mut names = HashSet::new();
+        let mut enter = |key: &Key| names.extend([key.name.to_string()]);
+        let [params, tree] = [&decl.params, &decl.tree];
+        params
+            .iter()
+            .chain(tree)
+            .for_each(|b| b.each(&mut |entry| enter(&entry.key)));
+        decl.coords
+            .iter()
+            .for_each(|b| b.each(&mut |coord| enter(&coord.key)));
+        decl.bodies
+            .iter()
+            .for_each(|b| b.each(&mut |body| enter(&body.key)));
+        names.retain(|name| !model.names.contains_key(name));
+        model.lost = names;
+    }
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
             decl.name.span(),

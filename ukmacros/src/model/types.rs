@@ -39,6 +39,8 @@ pub(crate) struct Model {
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
     pub(crate) names: HashMap<String, Name>,
+    /// What is not entered because of an error in its declaration, which is reported.
+    pub(crate) lost: HashSet<String>,
     /// Functions of integers, which indices may use.
     pub(crate) index_functions: HashMap<String, IndexFunction>,
     /// Parts by their names, with the indices of their members.

@@ -482,6 +482,15 @@ cases! {
     nonideal_on_a_list: "coords { x, y } mass { x: 1.0, y: 1.0 } nonideal { «[»x, y]: [1.0, 2.0] }" => "an entry belongs to one coordinate or family";
     mass_of_a_list: "coords { x, y } mass { «[»x, y]: 1.0 }" => "an entry belongs to one coordinate or family";
     unknown_name_in_a_function: "coords { x } mass { x: 1.0 } force { x: recip(«y») + 1.0 / «z» }" => "unknown name `y`", "unknown name `z`";
+    velocities_on_both_sides: "coords { x, y } mass { x: 1, y: 1 } holonomic { c: «dot(x)» = dot(y) }" => "a velocity in a holonomic constraint; move the constraint under `nonholonomic`";
+    velocities_on_one_side: "coords { x, y } mass { x: 1, y: 1 } holonomic { c: «dot(x)» + 2 * dot(y) = 0 }" => "a velocity in a holonomic constraint";
+    constant_in_error_in_use: "const N: usize = 7 «%» 4; coords { x[N] } mass { x: 1 } output { o = N * x[0] }" => "`%` cannot be differentiated; remove it";
+    constant_of_a_path: "const K: usize = «Stage::N»; coords { x } mass { x: 1 } output { n = K, m = K + 1 }" => "no paths here; write `N`";
+    size_in_error: "coords { y, x[«0..3»] } mass { x: 1, y: 1 } force { x[0]: -x[0] } holonomic { c: x[1] = y } output { o = x[1] + dot(x[2]) } start s { x = 1 }" => "a range belongs in `for i in 0..N { … }`";
+    size_of_a_parameter_in_error: "params { k[«'m'»] = 2 } coords { x } mass { x: k[0] } output { o = k[1] }" => "not a number";
+    body_in_error: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a[0].at([0, 0]), b.at([1, 0])) } force { a[1].angle: 1 } output { o = a[0].x }" => "`n` is not an integer constant or loop variable";
+    joint_in_error: "params { n = 2 } bodies { planar a { mass: 1, inertia: 1 } } tree { p[«n»]: pin(ground.at([0, 0]), a.at([1, 0])) } force { p[0].angle: 1 } output { o = p[0].angle }" => "`n` is not an integer constant or loop variable";
+    only_body_in_error: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } } output { o = a[0].x }" => "`n` is not an integer constant or loop variable";
     // Associated constants.
     constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
     outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";

@@ -478,9 +478,9 @@ impl<'m> Lowering<'m> {
             ExprKind::Name(owner) if !self.is_known(owner, env) => {
                 let text = owner.to_string();
                 match self.no_owner(&text) {
-                    _ if self.results.contains_key(&text) => Some(self.argument(base, env)),
                     // Once for all its uses.
-                    Some(_) if self.unknown.contains(&text) => return Value::Error,
+                    _ if self.unknown.contains(&text) => return Value::Error,
+                    _ if self.results.contains_key(&text) => Some(self.argument(base, env)),
                     // Perhaps a struct of Rust: `self.m`.
                     Some(message) if !self.model.names.contains_key(&name.to_string()) => {
                         self.unknown.insert(text);

@@ -87,6 +87,7 @@ impl<'m> Lowering<'m> {
             Kind::Nonholonomic => Place::Nonholonomic,
         };
         let env = Env::new(scope, place);
+        let before = self.diag.len();
         let (mut terms, mut rows, mut load) = (Vec::new(), Vec::new(), None);
         let mut joint = None;
         let mut known = true;
@@ -113,6 +114,8 @@ impl<'m> Lowering<'m> {
                 .diag
                 .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
         }
+        // A slip on both sides, such as a velocity under `holonomic`, is one.
+        self.diag.distinct(before);
         let clash = self.dimensions.is_some() && {
             let (left, right) = terms.split_at(left);
             self.sides_clash(left, right)

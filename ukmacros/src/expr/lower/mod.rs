@@ -110,7 +110,7 @@ fn lower_with<'m>(
         oversized: false,
         defaults: Vec::new(),
         hints: Map::default(),
-        unknown: HashSet::new(),
+        unknown: model.lost.clone(),
         results: HashMap::new(),
         constraints: Vec::new(),
         left_out: Vec::new(),

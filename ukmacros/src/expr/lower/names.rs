@@ -173,8 +173,8 @@ impl<'m> Lowering<'m> {
 
     fn unknown(&mut self, name: &Ident, env: &Env<'m>) -> Value {
         let text = name.to_string();
-        // Once for all its uses.
-        if !self.unknown.insert(text.clone()) {
+        // Once for all its uses; of a constant in error where that is.
+        if self.model.names.contains_key(&text) || !self.unknown.insert(text.clone()) {
             return Value::Error;
         }
         if let Some(result) = self.results.get(&text) {
