@@ -92,24 +92,9 @@ pub(crate) fn resolve(
     members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
         (&body.key, &body.docs, None)
     });
+    model.lost = lost(decl, &model, diag);
     bodies(decl, &mut model, diag, before);
-    if !diag.is_empty() {
-        let mut names = HashSet::new();
-        let mut enter = |key: &Key| names.extend([key.name.to_string()]);
-        let [params, tree] = [&decl.params, &decl.tree];
-        params
-            .iter()
-            .chain(tree)
-            .for_each(|b| b.each(&mut |entry| enter(&entry.key)));
-        decl.coords
-            .iter()
-            .for_each(|b| b.each(&mut |coord| enter(&coord.key)));
-        decl.bodies
-            .iter()
-            .for_each(|b| b.each(&mut |body| enter(&body.key)));
-        names.retain(|name| !model.names.contains_key(name));
-        model.lost = names;
-    }
+    model.lost = lost(decl, &model, diag);
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
             decl.name.span(),
@@ -120,6 +105,23 @@ pub(crate) fn resolve(
         );
     }
     model
+}
+
+/// What is declared and not entered, which is so because of an error.
+fn lost(decl: &Declaration, model: &Model, diag: &Diagnostics) -> HashSet<String> {
+    let mut names = HashSet::new();
+    if diag.is_empty() {
+        return names;
+    }
+    let mut enter = |key: &Key| names.extend([key.name.to_string()]);
+    let entries = decl.params.iter().chain(&decl.tree);
+    entries.for_each(|block| block.each(&mut |entry| enter(&entry.key)));
+    let coords = decl.coords.iter();
+    coords.for_each(|block| block.each(&mut |coord| enter(&coord.key)));
+    let bodies = decl.bodies.iter();
+    bodies.for_each(|block| block.each(&mut |body| enter(&body.key)));
+    names.retain(|name| !model.names.contains_key(name));
+    names
 }
 
 /// Enters the names of parts.

@@ -301,6 +301,9 @@ fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option
         if text == "ground" && indices.is_empty() && !model.names.contains_key(&text) {
             return Some(None);
         }
+        if model.lost.contains(&text) {
+            return None;
+        }
         let names = model.bodies.iter().map(|family| family.name.to_string());
         let names: Vec<String> = names.chain(["ground".to_owned()]).collect();
         let remedy = format!("bodies are `{}`", names.join("`, `"));

@@ -358,6 +358,8 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
                     Loc::of(turbofish),
                     "a function takes no type arguments here",
                 )
+            } else if is_iteration(&m) {
+                refuse(loc, "a sum over a range is written `sum(0..N, |i| …)`")
             } else {
                 let mut args = vec![Expr::convert(*m.receiver, diag)];
                 args.extend(all(m.args));
@@ -451,7 +453,39 @@ fn name_of(path: &syn::ExprPath) -> Result<Ident, String> {
     }
     let last = path.path.segments.last().map(|s| s.ident.to_string());
     let last = last.unwrap_or_default();
-    Err(format!("no paths here; write `{last}`"))
+    let here = match last.as_str() {
+        "TAU" => "2 * PI",
+        "E" => "exp(1)",
+        "SQRT_2" => "sqrt(2)",
+        "LN_2" => "ln(2)",
+        "LN_10" => "ln(10)",
+        "INFINITY" | "NEG_INFINITY" | "NAN" | "MAX" | "MIN" | "EPSILON" | "MIN_POSITIVE" => {
+            return Err(format!(
+                "no paths here, and nothing is called `{last}`; numbers are finite, and written out: `1e9`"
+            ));
+        }
+        last => match last.strip_prefix("FRAC_PI_") {
+            Some(by) => return Err(format!("no paths here; write `PI / {by}`")),
+            None => last,
+        },
+    };
+    Err(format!("no paths here; write `{here}`"))
+}
+
+/// Whether this is what Rust sums over a range with: `(0..n).map(|i| …).sum()`.
+fn is_iteration(call: &syn::ExprMethodCall) -> bool {
+    let mut names = [
+        "map",
+        "fold",
+        "product",
+        "filter",
+        "iter",
+        "into_iter",
+        "rev",
+    ]
+    .iter();
+    let closure = |e: &syn::Expr| matches!(e, syn::Expr::Closure(_));
+    call.method == "sum" || names.any(|name| call.method == name) && call.args.iter().any(closure)
 }
 
 fn literal(lit: &syn::Lit, diag: &Diagnostics) -> ExprKind {
@@ -482,6 +516,12 @@ fn literal(lit: &syn::Lit, diag: &Diagnostics) -> ExprKind {
             "a number has no quotes: `{}`",
             text.value().trim()
         )),
+        syn::Lit::Str(text) if syn::parse_str::<syn::Expr>(&text.value()).is_ok() => {
+            refuse(&format!(
+                "not a number; a name has no quotes: `{}`",
+                text.value().trim()
+            ))
+        }
         _ => refuse("not a number"),
     }
 }

@@ -19,6 +19,9 @@ use syn::{Token, braced, bracketed};
 
 const SECTIONS: &str = "const params coords bodies tree parts gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral start draw";
 
+/// Types that a mechanism's would hide.
+const TYPES: &str = "bool char f32 f64 i8 i16 i32 i64 i128 isize str u8 u16 u32 u64 u128 usize";
+
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
     if let Some(place) = nesting::too_deep(&tokens) {
@@ -55,7 +58,13 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
     } = attributes(input, diag)?;
     let vis: syn::Visibility = input.parse()?;
     let _: Option<Token![struct]> = input.parse()?;
-    let name: Ident = input.parse()?;
+    let mut name: Ident = input.parse()?;
+    if TYPES.split(' ').any(|ty| name == ty) {
+        let message =
+            format!("`{name}` is a type of Rust, which what is emitted uses; choose another name");
+        diag.error(name.span(), message);
+        name = Ident::new(&format!("{name}_"), name.span());
+    }
     let mut out = Declaration {
         docs,
         runtime,
@@ -109,6 +118,9 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
 }
 
 fn section(input: ParseStream<'_>, out: &mut Declaration, diag: &Diagnostics) -> syn::Result<()> {
+    if let Some(error) = comment(input) {
+        return Err(error);
+    }
     let docs = docs(input, diag)?;
     if input.peek(Token![const]) {
         out.consts.push(constant(input, docs, diag)?);
@@ -273,6 +285,17 @@ pub(super) fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Ve
     Ok(found.docs)
 }
 
+/// The error for a comment as other languages have it, if one comes next.
+fn comment(input: ParseStream<'_>) -> Option<syn::Error> {
+    let attribute = input.peek2(syn::token::Bracket) || input.peek2(Token![!]);
+    let found = input.peek(Token![#]) && !attribute;
+    found.then(|| {
+        input.error(
+            "a comment begins with `//`, and one that documents an entry with `///` before it",
+        )
+    })
+}
+
 fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Const> {
     let _: Token![const] = input.parse()?;
     let name: Ident = input.parse()?;
@@ -423,6 +446,8 @@ pub(super) fn blocks<T>(
         let before = diag.len();
         let block = if body.peek(Token![for]) {
             for_block(&body, diag, parse)
+        } else if let Some(error) = comment(&body) {
+            Err(error)
         } else if body.peek(Token![let]) {
             Err(body.error(
                 "`let` stands beside sections, before the first that uses it, not within one",

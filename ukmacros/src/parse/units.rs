@@ -79,6 +79,10 @@ impl Marking<'_> {
                     let inside = self.integers.len();
                     self.integers.extend(variable);
                     // A vector that a start tells of, behind an entry without its comma.
+                    if bracket && let Some(text) = quoted(group) {
+                        let message = format!("a unit has no quotes, nor has an index: `[{text}]`");
+                        self.diag.damage(group.span(), message);
+                    }
                     let stands = match rest.peek() {
                         Some(TokenTree::Ident(next)) if next == "near" => Before::Other,
                         Some(TokenTree::Punct(next))
@@ -152,6 +156,17 @@ impl Marking<'_> {
     }
 }
 
+/// The text that stands in these brackets by itself, which would be taken for a unit that is read already.
+fn quoted(group: &Group) -> Option<String> {
+    let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
+    let [TokenTree::Literal(text)] = &tokens[..] else {
+        return None;
+    };
+    let text = text.to_string();
+    let inside = text.strip_prefix('"')?.strip_suffix('"')?;
+    Some(inside.to_owned())
+}
+
 /// Whether this is written as a unit, and can be no index.
 fn is_unit(tokens: &TokenStream, integers: &[String]) -> bool {
     let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
@@ -198,7 +213,12 @@ fn text(group: &Group, diag: &Diagnostics) -> TokenStream {
         Ok(_) => text,
         Err(Refusal::Unknown(name)) => {
             let remedy = "a unit is a product of powers of kg, m, s, rad, deg, N, J and others, such as `[kg m^2]`";
-            let end = suggest(&name, ukunits::names(), remedy);
+            let alike = |unit: &&str| name.chars().count() > 2 || unit.eq_ignore_ascii_case(&name);
+            let end = match ukunits::elsewhere(&name) {
+                Some(here) => format!("; one is `{here}`"),
+                // Short names are all alike.
+                None => suggest(&name, ukunits::names().filter(alike), remedy),
+            };
             told(inside(&name), format!("unknown unit `{name}`{end}"))
         }
         Err(refusal) => told(group.span(), refusal.to_string()),

@@ -249,10 +249,21 @@ cases! {
     unnamed_constraint: "coords { x } mass { x: 1.0 } holonomic { «x» = 1.0 }" => "a constraint needs a name";
     field_access: "params { m = 1.0 } coords { x } mass { x: self.«m» }" => "no fields here";
     path: "coords { x } mass { x: 1.0 } force { x: «f64::consts::PI» }" => "no paths here; write `PI`";
+    path_of_an_infinity: "params { k = «f64::INFINITY» } coords { x } mass { x: k }" => "no paths here, and nothing is called `INFINITY`; numbers are finite, and written out: `1e9`";
+    path_of_a_turn: "params { k = «std::f64::consts::TAU» } coords { x } mass { x: k }" => "no paths here; write `2 * PI`";
+    path_of_a_fraction: "params { k = «consts::FRAC_PI_4» } coords { x } mass { x: k }" => "no paths here; write `PI / 4`";
+    quoted_name: "coords { x } mass { x: 1 } holonomic { h: sin(x) = t } output { o = reaction(«\"h\"») }" => "not a number; a name has no quotes: `h`";
+    quoted_unit: "coords { x «[\"m\"]» } mass { x: 1 }" => "a unit has no quotes, nor has an index: `[m]`";
+    quoted_index: "coords { x[2], y } mass { x: 1, y: 1 } holonomic { c«[\"u\"]»: x[0] = y }" => "a unit has no quotes, nor has an index: `[u]`";
+    comment_with_a_hash: "params { m = 1, «#» mass
+        k = 2 } coords { x } mass { x: m }" => "a comment begins with `//`";
+    comment_in_a_mass: "coords { x } mass { x: 1, «#» the mass
+        }" => "a comment begins with `//`";
+    comment_between_sections: "coords { x } mass { x: 1 } «#» done" => "a comment begins with `//`";
     constant_without_type: "const «N» = 3; coords { x[N] } mass { for i in 0..N { x[i]: 1.0 } }" => "a constant needs its type: `const N: usize = 3;`";
     product_without_sign: "coords { x } mass { x: 1.0 } force { x: «2x» }" => "a product is written with its sign: `2 * x`";
     float_suffix: "coords { x } mass { x: «1.0f32» }" => "only `f64` numbers here";
-    text: "coords { x } mass { x: «\"heavy\"» }" => "not a number";
+    text: "coords { x } mass { x: «\"heavy\"» }" => "not a number; a name has no quotes: `heavy`";
     quoted_number: "coords { x } mass { x: «\" 1.5 \"» }" => "a number has no quotes: `1.5`";
     equals_in_a_mass: "coords { x } mass { x «=» 1 }" => "here stands `:`, as in `x: 1.0`";
     equals_in_a_force: "coords { x } mass { x: 1 } force { x «=» 1 }" => "here stands `:`, as in `x: 1.0`";
@@ -491,6 +502,9 @@ cases! {
     body_in_error: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a[0].at([0, 0]), b.at([1, 0])) } force { a[1].angle: 1 } output { o = a[0].x }" => "`n` is not an integer constant or loop variable";
     joint_in_error: "params { n = 2 } bodies { planar a { mass: 1, inertia: 1 } } tree { p[«n»]: pin(ground.at([0, 0]), a.at([1, 0])) } force { p[0].angle: 1 } output { o = p[0].angle }" => "`n` is not an integer constant or loop variable";
     only_body_in_error: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } } output { o = a[0].x }" => "`n` is not an integer constant or loop variable";
+    body_in_error_in_a_tree: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } } tree { p: pin(ground.at([0, 0]), a[0].at([1, 0])) }" => "`n` is not an integer constant or loop variable";
+    sum_as_rust_has_it: "coords { x[2] } mass { x: 1 } potential { «(0..2).map(|i| sq(x[i])).sum()» }" => "a sum over a range is written `sum(0..N, |i| …)`";
+    sum_of_a_vector: "coords { x[2] } mass { x: 1 } potential { «x.sum()» }" => "a sum over a range is written `sum(0..N, |i| …)`";
     // Associated constants.
     constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
     outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";

@@ -272,6 +272,9 @@ cases! {
     reaction: "coords { x [m], y [m] } mass { x: 1, y: 1 } holonomic { c: x = y } output { f [N] = reaction(c), g [J] = «reaction(c)» }" => "expected J, as `[J]` says, found N";
     // Units themselves.
     unknown_unit: "params { l = 1 [«mtr»] } coords { x [m] } mass { x: l }" => "unknown unit `mtr`";
+    inch: "params { l = 1 [«in»] } coords { x } mass { x: l }" => "unknown unit `in`; one is `25.4 [mm]`";
+    short_unit: "params { l = 1 [«hg»] } coords { x } mass { x: l }" => "unknown unit `hg`; a unit is a product of powers of kg, m, s";
+    unit_in_capitals: "params { l = 1 [«RAD»], f = 1 [«NM»] } coords { x } mass { x: l * f }" => "unknown unit `RAD`; did you mean `rad`?", "unknown unit `NM`; did you mean `Nm`?";
     unknown_unit_far_from_all: "params { l = 1 [«parsecs»] } coords { x [m] } mass { x: l }" => "unknown unit `parsecs`; a unit is a product of powers of kg, m, s";
     unknown_unit_of_an_option: "coords { x [m] } mass { x: 1 } start a(b = 1.0 [«metres»]) { x = b }" => "unknown unit `metres`";
     unknown_beside_known: "params { l = 1 [kg «mtr»] } coords { x [m] } mass { x: 1 }" => "unknown unit `mtr`";

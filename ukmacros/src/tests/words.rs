@@ -63,7 +63,7 @@ fn names_of_other_alphabets_are_names() {
 
 #[test]
 fn the_type_is_no_reserved_word() {
-    for word in ["fn", "self", "r#loop", "box", "_"] {
+    for word in ["fn", "self", "r#loop", "box", "_", "f64"] {
         let (_, found) = expand(&format!("pub {word} {{ coords {{ x }} mass {{ x: 1 }} }}"));
         assert_eq!(found.len(), 1, "{word}");
     }

@@ -12,7 +12,7 @@ pub use dimension::Dimension;
 
 use dimension::TWELFTHS;
 use std::fmt::{self, Write as _};
-use table::{Base, PREFIXES, Prefix, UNITS};
+use table::{Base, OTHERS, PREFIXES, Prefix, UNITS};
 
 /// A product of powers of known units, as it is written: `kg m^2`, `mm`, `rad/s`.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +68,13 @@ impl std::error::Error for Refusal {}
 /// The names of all units, without prefixes.
 pub fn names() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|unit| unit.name)
+}
+
+/// A quantity that is 1 of a unit which is none here: of an inch, `in`, it is `25.4 [mm]`.
+#[must_use]
+pub fn elsewhere(name: &str) -> Option<&'static str> {
+    let found = OTHERS.iter().find(|(other, _)| *other == name);
+    found.map(|(_, here)| *here)
 }
 
 /// Whether there is a unit of this `name`, with or without a prefix.

@@ -123,3 +123,16 @@ fn names_have_one_meaning() {
         }
     }
 }
+
+#[test]
+fn what_others_are_here_is_a_unit() {
+    for (other, here) in crate::table::OTHERS {
+        assert!(!crate::is_known(other), "{other}");
+        let (number, unit) = here.split_once(' ').expect("a number and a unit");
+        assert!(number.parse::<f64>().is_ok_and(|x| x > 0.0), "{here}");
+        let unit = unit.trim_matches(['[', ']']);
+        assert!(Unit::parse(unit).is_ok(), "{here}");
+    }
+    assert_eq!(crate::elsewhere("in"), Some("25.4 [mm]"));
+    assert_eq!(crate::elsewhere("N"), None);
+}
