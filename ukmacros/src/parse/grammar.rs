@@ -9,7 +9,7 @@ use super::entries::{
 };
 use super::expr::{Expr, Range};
 use super::item::{Block, Const, Declaration, Key, Measure, Merged};
-use super::{nesting, units, words};
+use super::{bars, nesting, units, words};
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
@@ -28,7 +28,7 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
         diag.damage(place, "nested too deeply; name parts of it with `let`");
         tokens = nesting::head(tokens);
     }
-    let tokens = words::free(tokens, diag);
+    let tokens = bars::mend(words::free(tokens, diag), diag);
     let marked = units::mark(&tokens, diag);
     let units = marked.is_some();
     let mut read = None;

@@ -1,5 +1,6 @@
 //! Tokens to syntax tree. The only place that knows `syn`.
 
+mod bars;
 mod entries;
 mod expr;
 mod grammar;

@@ -229,6 +229,10 @@ cases! {
     nonideal_force_at_the_centre: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { a.«centre»: [0, 1] }" => "body `a` has no coordinate `centre`; what acts on it is written `force(a.at(p), F)` or `torque(a, M)`, under `forces` or `nonideal`";
     nonideal_moment_of_a_vector: "bodies { planar a { mass: 1.0, inertia: 1.0 } } nonideal { torque(a, «[0, 1]») }" => "`m` of `torque(b, m)` is a number, found a vector of 2";
     generalised_force_of_a_point: "bodies { planar a { mass: 1.0, inertia: 1.0 } } force { «a».at([1, 0]): [0, 1] }" => "goes under `forces`: `force(link.at([0, 0]), [fx, fy])`";
+    bars_for_a_magnitude: "coords { x } mass { x: 1 } force { x: -0.3 * «|dot(x)|» * dot(x) }" => "a magnitude is written `abs(x)`, that of a vector `norm(v)`";
+    bars_first: "coords { x } mass { x: 1 } force { x: «|x|» }" => "a magnitude is written `abs(x)`";
+    bars_of_sums: "coords { x, y } let u = «|x - y|» - 2; let f = |v, w| v * w; mass { x: 1, y: 1 } holonomic { c: «|x|» + y = f(u, «|y|») }" => "a magnitude is written", "a magnitude is written", "a magnitude is written";
+    bars_within_bars: "coords { x[2] } mass { x: 1 } potential { sum(0..2, |i| «|x[i]|» * sin(«|x[i]|» - 1)) }" => "a magnitude is written", "a magnitude is written";
     caret_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x «^» 2 = 1.0 }" => "`^` is not a power in Rust; write `x.powi(2)`";
     double_star_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x * «*»2.0 = 1.0 }" => "`**` is not a power in Rust";
     remainder: "coords { x } mass { x: 1.0 } force { x: x «%» 2.0 }" => "`%` cannot be differentiated";
