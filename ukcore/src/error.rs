@@ -66,7 +66,7 @@ pub enum Error {
     },
     /// M has a negative eigenvalue, or is not what a mass matrix can be.
     #[error(
-        "the mass matrix is not positive semidefinite at {}; masses must not be negative",
+        "the mass matrix is not positive semidefinite at {}; masses must not be negative, and an entry (x, y) is at most √(M[x, x] M[y, y])",
         quoted(coordinates)
     )]
     IndefiniteMass {

@@ -1,5 +1,6 @@
 //! Syntax tree to names: constants, parameters, coordinates, and what loops run over.
 
+mod elsewhere;
 mod parts;
 mod renaming;
 mod resolve;
@@ -12,6 +13,7 @@ mod unused;
 /// The functions whose arguments are constraints.
 pub(crate) const LOADS: [&str; 2] = ["reaction", "moment"];
 
+pub(crate) use elsewhere::elsewhere;
 pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
 pub(crate) use scope::{Reported, Scope, arguments, arity};

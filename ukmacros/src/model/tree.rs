@@ -1,5 +1,6 @@
 //! The tree: which bodies hang on which, by joints whose coordinates are theirs.
 
+use super::elsewhere::elsewhere;
 use super::scope::{InPart, Scope};
 use super::types::{Model, Name, TreeJoint, Variable, block, indexed};
 use crate::diag::{Diagnostics, suggest};
@@ -233,11 +234,12 @@ fn kind(e: &Expr, diag: &Diagnostics) -> Option<(Vec<&'static TreeJoint>, Ident,
     let kinds: Vec<&TreeJoint> = JOINTS.iter().filter(|joint| name == joint.name).collect();
     if kinds.is_empty() {
         let names = JOINTS.iter().map(|joint| joint.name);
-        let end = suggest(
-            &name.to_string(),
-            names,
-            &format!("{}, others go under `holonomic`", listed(None)),
-        );
+        let remedy = format!("{}, others go under `holonomic`", listed(None));
+        let text = name.to_string();
+        let end = match elsewhere(&text) {
+            Some(here) => format!("; {here}"),
+            None => suggest(&text, names, &remedy),
+        };
         diag.error(
             name.span(),
             format!("no joint of the tree is called `{name}`{end}"),

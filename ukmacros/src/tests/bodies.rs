@@ -323,7 +323,7 @@ cases! {
     rod_of_a_vector: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: rod(ground.at([0, 0]), a.at([0, 0]), «[1, 0]») }" => "`l` of `rod(p, q, l)` is a number, found a vector of 2";
     direction_zero: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: slot(ground.at([0, 0]), a.at([0, 0]), «[0, 0]») }" => "`d` of `slot(p, q, d)` is a direction; it must not be zero";
     unknown_joint_twice: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])), d: pim(ground.at([0, 0]), a.at([1, 0])) }" => "unknown function `pim`; did you mean `pin`?";
-    no_joint_of_a_like_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «revolute»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `revolute`; joints are `ball`, `cylinder`, `disc`";
+    no_joint_of_a_like_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «clutch»(ground.at([0, 0]), a.at([0, 0])) }" => "unknown function `clutch`; joints are `ball`, `cylinder`, `disc`";
     joint_in_error_with_reactions: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «pim»(ground.at([0, 0]), a.at([0, 0])) } output { f = norm(reaction(c)), x = reaction(c.x), m = moment(c) }" => "unknown function `pim`; did you mean `pin`?";
     joint_twice: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } holonomic { c: pin(a.at([1, 0]), b.at([0, 0])), «d»: pin(a.at([1, 0]), b.at([0, 0])) }" => "constraint `d` is the same equation as `c`; remove one";
     component_twice: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { c: [x, y] = [sin(z), cos(z)]  «d»: [x, z] = [sin(z), t] }" => "constraint `d[0]` is the same equation as `c[0]`; remove one";
@@ -339,7 +339,7 @@ cases! {
     unknown_force: "bodies { planar a { mass: 1, inertia: 1 } } forces { «sprong»(a.at([0, 0]), a.at([0, 1]), 1, 1) }" => "nothing that acts is called `sprong`; did you mean `spring`?";
     force_on_a_coordinate: "bodies { planar a { mass: 1, inertia: 1 } } forces { a.x«:» 1 }" => "the force on a coordinate goes under `force`";
     sum_that_acts: "bodies { planar a { mass: 1, inertia: 1 } } forces { «1 + 2» }" => "what acts is written as one of `spring(p, q, k, l)`";
-    force_on_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } forces { «force(ground.at([0, 0]), [1, 1])» }" => "this does not change with time";
+    force_on_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } forces { «force(ground.at([0, 0]), [1, 1])» }" => "the ground does not move, so that this `force` does nothing; name a body";
     force_on_a_bead: "coords { s } mass { s: 1 } bodies { planar a { mass: 1, inertia: 1 } } forces { force(«a.at([s, 0])», [1, 1]) }" => "where this point is in `a` depends on `s`, and whether the force acts on `a` there or on what moves along with `s` is not told";
     force_on_moving_ground: "bodies { planar a { mass: 1, inertia: 1 } } forces { force(«ground.at([a.x, 0])», [1, 1]) }" => "a force on the ground moves nothing; one on what `a.x` moves is written `force { a.x: … }`";
     force_on_a_bead_of_the_tree: "bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1 } } tree { sl: slider(a.at([0, 0]), b.at([0, 0]), [1, 0]) } forces { force(«a.at([sl.slide, 0])», [1, 1]) }" => "whether the force acts on `a` there or on what moves along with `sl.slide` is not told";

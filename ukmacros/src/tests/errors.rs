@@ -373,7 +373,7 @@ cases! {
     // Functions.
     unknown_function: "coords { x } mass { x: 1.0 } force { x: «sine»(x) }" => "unknown function `sine`; did you mean `sin`?";
     function_called_as_a_reserved_word: "coords { x } mass { x: 1.0 } force { x: «mod»(t, 2.0) * mod(x, 2.0) }" => "`mod` is a reserved word of Rust";
-    unsupported_function: "coords { x } mass { x: 1.0 } force { x: x.«floor»() }" => "unknown function `floor`; functions are sqrt";
+    unsupported_function: "coords { x } mass { x: 1.0 } force { x: x.«gamma»() }" => "unknown function `gamma`; functions are sqrt";
     signum: "coords { x } mass { x: 1.0 } force { x: x.«signum»() }" => "write `sign`, which is 0 at 0";
     too_many_arguments: "coords { x } mass { x: 1.0 } force { x: «sin»(x, x) }" => "`sin` takes 1 argument, found 2";
     too_few_arguments: "coords { x } let f = |a, b| a * b; mass { x: 1.0 } force { x: «f»(x) }" => "`f` takes 2 arguments, found 1";
@@ -509,6 +509,18 @@ cases! {
     body_in_error_in_a_tree: "params { n = 2 } bodies { planar a[«n»] { mass: 1, inertia: 1 } } tree { p: pin(ground.at([0, 0]), a[0].at([1, 0])) }" => "`n` is not an integer constant or loop variable";
     sum_as_rust_has_it: "coords { x[2] } mass { x: 1 } potential { «(0..2).map(|i| sq(x[i])).sum()» }" => "a sum over a range is written `sum(0..N, |i| …)`";
     sum_of_a_vector: "coords { x[2] } mass { x: 1 } potential { «x.sum()» }" => "a sum over a range is written `sum(0..N, |i| …)`";
+    logarithm: "coords { x } mass { x: 1 } force { x: «log»(1 + sq(x)) }" => "unknown function `log`; the natural logarithm is `ln(x)`, that to base 10 `ln(x) / ln(10)`";
+    point_of_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: pin(ground.«point»([0, 0]), a.at([1, 0])) }" => "unknown function `point`; the point p of a body is `body.at(p)`";
+    revolute_joint: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «revolute»(ground.at([0, 0]), a.at([1, 0])) }" => "unknown function `revolute`; it is `pin` in the plane and `hinge` in space";
+    prismatic_joint_of_a_tree: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: «prismatic»(ground.at([0, 0]), a.at([1, 0]), [1, 0]) }" => "no joint of the tree is called `prismatic`; it is `slider`";
+    spherical_joint: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } holonomic { c: «spherical»(ground.at([0, 0, 0]), a.at([1, 0, 0])) }" => "unknown function `spherical`; it is `ball`";
+    torsional_spring: "bodies { planar a { mass: 1, inertia: 1 } } forces { «torsional_spring»(ground, a, 1, 0) }" => "nothing that acts is called `torsional_spring`; it is `turning_spring`";
+    ball_between_kinds: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } planar b { mass: 1, inertia: 1 } } holonomic { c: ball(b.at([0, 0]), «a.at([0, 0, 0])») }" => "`b` is planar and `a` is spatial";
+    spring_between_kinds: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } planar b { mass: 1, inertia: 1 } } forces { spring(a.at([0, 0, 0]), «b.at([0, 0])», 1, 0) }" => "`a` is spatial and `b` is planar";
+    function_called_nearly_as_elsewhere: "coords { x } let lengths = |u| 2 * u; mass { x: 1 } force { x: «length»(x) + «floor»(x) }" => "unknown function `length`; did you mean `lengths`?", "unknown function `floor`; no function here jumps";
+    torque_on_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } nonideal { «torque(ground, 1)» }" => "the ground does not move, so that this `torque` does nothing";
+    spring_between_places: "bodies { planar a { mass: 1, inertia: 1 } } forces { «spring(ground.at([0, 0]), ground.at([1, 0]), 1, 0)» }" => "the ground does not move, so that this `spring` does nothing";
+    spring_of_one_body: "bodies { planar a { mass: 1, inertia: 1 } } forces { «spring(a.at([0, 0]), a.at([0, 0]), 1, 2)» «turning_spring(a, a, 1, 0)» }" => "both ends of this `spring` are on `a`, so that it does nothing; name two bodies", "both ends of this `turning_spring` are on `a`";
     // Associated constants.
     constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
     outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";

@@ -8,7 +8,7 @@ use crate::diag::{Diagnostics, suggest};
 use crate::expr::diff::Derivative;
 use crate::expr::functions::Func;
 use crate::expr::graph::Id;
-use crate::model::{Reported, Scope, arity};
+use crate::model::{Reported, Scope, arity, elsewhere};
 use crate::parse::{Expr, ExprKind};
 use proc_macro2::Ident;
 
@@ -149,10 +149,15 @@ impl<'m> Lowering<'m> {
     fn functions(&self) -> Vec<&str> {
         let mut names: Vec<&str> = vocabulary().chain(["at", "along"]).collect();
         names.extend(PARTS.iter().map(|part| part.name));
+        names.extend(self.own_functions());
+        names
+    }
+
+    /// The names of the functions that the declaration has.
+    fn own_functions(&self) -> impl Iterator<Item = &str> {
         let lets = self.lets.iter();
         let own = lets.filter(|(_, binding)| matches!(binding, Binding::Function(_)));
-        names.extend(own.map(|(name, _)| name.as_str()));
-        names
+        own.map(|(name, _)| name.as_str())
     }
 
     /// Whether `let` declares a function of this name, where it is the modeller who calls.
@@ -193,7 +198,12 @@ impl<'m> Lowering<'m> {
         if matches!(env.place, Place::Holonomic | Place::Nonholonomic) {
             remedy = format!("joints are {}; {remedy}", joints());
         }
-        let end = suggest(&text, self.functions(), &remedy);
+        // What the declaration has is nearer than what other programs call so.
+        let own = suggest(&text, self.own_functions(), "");
+        let end = match elsewhere(&text) {
+            Some(here) if own == "; " => format!("; {here}"),
+            _ => suggest(&text, self.functions(), &remedy),
+        };
         self.error_once(name, format!("unknown function `{text}`{end}"))
     }
 

@@ -246,6 +246,27 @@ fn dimension(name: &Ident, values: &[Value]) -> usize {
     known.unwrap_or(if spatial { 3 } else { 2 })
 }
 
+/// Which of the bodies among `values` lives elsewhere than the first, in words, and where it stands.
+fn mixed(values: &[Value]) -> Option<(usize, String)> {
+    let body = |value: &Value| match value {
+        Value::Body(body) => Some(body.clone()),
+        Value::Point(point) => Some(point.body.clone()),
+        _ => None,
+    };
+    let bodies = values.iter().enumerate();
+    let mut bodies = bodies.filter_map(|(k, value)| Some((k, body(value)?)));
+    let (_, first) = bodies.find(|(_, body)| body.dimension().is_some())?;
+    let home = first.dimension();
+    let (k, other) = bodies.find(|(_, body)| body.dimension().is_some_and(|n| Some(n) != home))?;
+    let kinds = if home == Some(3) {
+        ("spatial", "planar")
+    } else {
+        ("planar", "spatial")
+    };
+    let message = format!("`{first}` is {} and `{other}` is {}", kinds.0, kinds.1);
+    Some((k, message))
+}
+
 /// The part called `name` that takes so many arguments in a space of this dimension; or why there is none.
 fn chosen(name: &Ident, dimension: usize, count: usize) -> Result<&'static Part, String> {
     let (home, here, there) = match dimension {
@@ -442,6 +463,10 @@ impl<'m> Lowering<'m> {
         values: &[Value],
     ) -> Option<(&'static Part, Env<'m>)> {
         if values.iter().any(Value::is_error) {
+            return None;
+        }
+        if let Some((k, message)) = mixed(values) {
+            self.diag.error(args[k].loc, message);
             return None;
         }
         let dimension = dimension(name, values);

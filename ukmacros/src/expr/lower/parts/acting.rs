@@ -7,8 +7,11 @@ use crate::expr::graph::{Id, Symbol};
 use crate::expr::lower::array::Value;
 use crate::expr::lower::bodies::{Frame, Point};
 use crate::expr::lower::{Env, Lowering, Place};
+use crate::model::elsewhere;
 use crate::parse::{Expr, ExprKind};
+use proc_macro2::Ident;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// What the entries of `forces` add up to.
 #[derive(Default)]
@@ -44,11 +47,12 @@ impl<'m> Lowering<'m> {
                 .iter()
                 .filter(|part| !part.joins())
                 .map(|part| part.name);
-            let end = suggest(
-                &name.to_string(),
-                names,
-                &format!("what acts is one of {}", acting()),
-            );
+            let text = name.to_string();
+            let remedy = format!("what acts is one of {}", acting());
+            let end = match elsewhere(&text) {
+                Some(here) => format!("; {here}"),
+                None => suggest(&text, names, &remedy),
+            };
             self.error(
                 name.span(),
                 format!("nothing that acts is called `{name}`{end}"),
@@ -58,6 +62,12 @@ impl<'m> Lowering<'m> {
         let Some((part, inner)) = self.part_of(name, args, env) else {
             return;
         };
+        if !part.joins()
+            && let Some(message) = self.idle(name, &inner)
+        {
+            self.error(e.loc, message);
+            return;
+        }
         match part.meaning {
             Meaning::Rows(..) => {
                 let message =
@@ -118,6 +128,30 @@ impl<'m> Lowering<'m> {
                     }
                 }
             }
+        }
+    }
+
+    /// Why what is called `name` moves nothing, if that is so whatever the motion is.
+    fn idle(&self, name: &Ident, inner: &Env<'m>) -> Option<String> {
+        let mut ends: Vec<&Rc<Frame>> = Vec::new();
+        for (_, value) in &inner.args {
+            match value {
+                Value::Point(point) if self.moves_within(point) => return None,
+                Value::Point(point) => ends.push(&point.body),
+                Value::Body(body) => ends.push(body),
+                _ => {}
+            }
+        }
+        if ends.iter().all(|body| body.dimension().is_none()) {
+            return Some(format!(
+                "the ground does not move, so that this `{name}` does nothing; name a body"
+            ));
+        }
+        match ends[..] {
+            [first, second] if Rc::ptr_eq(first, second) => Some(format!(
+                "both ends of this `{name}` are on `{first}`, so that it does nothing; name two bodies"
+            )),
+            _ => None,
         }
     }
 
