@@ -1,6 +1,6 @@
 //! What is visible where an expression stands: integer constants, loop variables, arguments; integers known at compile time, and loops.
 
-use super::types::{IndexFunction, Integer, Model, Name, Variable, indexed};
+use super::types::{IndexFunction, Integer, Model, Variable};
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::{BinaryOp, Block, Declaration, Expr, ExprKind, Function, LetValue, Range};
 use proc_macro2::Ident;
@@ -59,21 +59,10 @@ fn depth(
     Some(inside + 1)
 }
 
-/// What a name in a part is called in the whole.
-pub(crate) struct InPart {
-    pub(crate) name: Ident,
-    pub(crate) indices: Vec<Expr>,
-    /// How many names before it, and itself.
-    pub(crate) used: usize,
-}
-
-/// An error that is reported.
-pub(crate) struct Reported;
-
 /// What is visible where an expression stands: constants and loop variables.
 #[derive(Clone)]
 pub(crate) struct Scope<'m> {
-    model: &'m Model,
+    pub(super) model: &'m Model,
     pub(crate) variables: Vec<Variable>,
 }
 
@@ -100,67 +89,6 @@ impl<'m> Scope<'m> {
         let mut inner = self.clone();
         inner.variables.push((var.to_string(), Some(value)));
         inner
-    }
-
-    /// What a name in a part is called here, with its indices, and how many of the `segments` that takes: nothing where the first names no
-    /// part, an error where they lead nowhere.
-    pub(crate) fn in_part(
-        &self,
-        segments: &[(Ident, Vec<Expr>)],
-        diag: &Diagnostics,
-    ) -> Option<Result<InPart, Reported>> {
-        let (first, _) = segments.first()?;
-        let mut base = first.to_string();
-        if !matches!(self.model.names.get(&base), Some(Name::Part)) {
-            return None;
-        }
-        let mut shown = base.clone();
-        for (at, (name, indices)) in segments.iter().enumerate() {
-            let members = self.model.part_families.get(&base)?;
-            let chosen: Option<Vec<i64>> = indices.iter().map(|i| self.integer(i, diag)).collect();
-            let Some(chosen) = chosen else {
-                return Some(Err(Reported));
-            };
-            shown = indexed(shown, &chosen);
-            if !members.contains(&chosen) {
-                let of = members.iter().map(|member| indexed(&base, member));
-                let of = of.take(4).collect::<Vec<_>>().join("`, `");
-                let message = format!("there is no part `{shown}`; there are `{of}`");
-                diag.error(name.span(), message);
-                return Some(Err(Reported));
-            }
-            let member = chosen
-                .iter()
-                .fold(base.clone(), |name, i| format!("{name}_{i}"));
-            let Some((next, further)) = segments.get(at + 1) else {
-                let message =
-                    format!("`{shown}` is a part; choose what belongs to it, `{shown}.name`");
-                diag.error(name.span(), message);
-                return Some(Err(Reported));
-            };
-            let full = format!("{member}_{next}");
-            let known = |name: &String| self.model.shown.contains_key(name);
-            if self.model.part_families.contains_key(&full) {
-                shown = format!("{shown}.{next}");
-                base = full;
-                continue;
-            }
-            // What all members have together.
-            let common = format!("{base}_{next}");
-            let Some(found) = [full, common].into_iter().find(known) else {
-                let names = self.model.shown.keys();
-                let names = names.filter_map(|name| name.strip_prefix(&format!("{member}_")));
-                let end = suggest(&next.to_string(), names, "see where it is declared");
-                diag.error(next.span(), format!("part `{shown}` has no `{next}`{end}"));
-                return Some(Err(Reported));
-            };
-            return Some(Ok(InPart {
-                name: Ident::new(&found, next.span()),
-                indices: further.clone(),
-                used: at + 2,
-            }));
-        }
-        None
     }
 
     /// Whether `e` is an integer by its form (so that `/` would be integer division in Rust).
@@ -247,6 +175,9 @@ impl<'m> Scope<'m> {
             ExprKind::Call(name, args) => self.applied(e, name, args, diag),
             ExprKind::Error => None,
             _ => {
+                if let Some(constant) = self.constant_of_a_part(e, diag) {
+                    return self.integer(&constant.ok()?, diag);
+                }
                 diag.error(
                     e.loc,
                     "not an integer known at compile time; indices and ranges take integers, `const`s, loop variables and functions of them",

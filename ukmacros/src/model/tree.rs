@@ -1,7 +1,8 @@
 //! The tree: which bodies hang on which, by joints whose coordinates are theirs.
 
 use super::elsewhere::elsewhere;
-use super::scope::{InPart, Scope};
+use super::in_part::InPart;
+use super::scope::Scope;
 use super::types::{Model, Name, TreeJoint, Variable, block, indexed};
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::{Declaration, Expr, ExprKind};

@@ -128,7 +128,7 @@ impl Expr {
     }
 
     /// `name`.
-    pub(super) fn name(name: Ident) -> Self {
+    pub(crate) fn name(name: Ident) -> Self {
         Expr {
             loc: name.span().into(),
             kind: ExprKind::Name(name),

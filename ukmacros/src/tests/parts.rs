@@ -99,6 +99,23 @@ fn parts_are_what_stands_in_them() {
 }
 
 #[test]
+fn open_parameters_of_parts_of_parts_are_known_in_families() {
+    const TRAIN: &str = "@parts [{ Train } { pub Train { params { k = 3 } parts { st[2]: Stage { j: 2 } } force { st[1].a: st[1].c * k } output { one = st[1].c + st[0].n[1], given = st[1].j } } } \
+        { { Stage } { pub Stage { const N: usize = 2; params { j = 0.1, c = 0.01, n[N] = 1 } parts { sub[3]: Sub } coords { a } mass { a: j } force { a: -c * sub[2].d * dot(a) } } } \
+        { { Sub } { pub Sub { params { d = 5, e = 6 } coords { b } mass { b: e } } } { } } }]";
+    for body in [
+        "parts { tr[2]: Train } output { a = tr[0].st[1].c, b = tr[1].st[1].j, c = tr[0].st[0].sub[2].d + tr[1].st[1].sub[0].e, d = tr[0].k }",
+        "parts { tr: Train } output { a = tr.st[1].c, b = tr.st[1].j, c = tr.st[0].sub[2].d }",
+        "parts { for i in 0..2 { tr[i]: Train { k: i } } } output { a = tr[0].st[1].c, b = tr[1].st[1].j, c = tr[0].st[0].sub[2].d, d = tr[0].k }",
+    ] {
+        let source = format!("{TRAIN} pub T {{ {body} }}");
+        let (_, found) = expand(&source);
+        let told: Vec<&str> = found.iter().map(|e| e.message.as_str()).collect();
+        assert!(told.is_empty(), "{body}: {told:#?}");
+    }
+}
+
+#[test]
 fn parts_have_parts() {
     let source = "@parts [{ Leg } { pub Leg { params { l = 0.5 } bodies { planar shin { mass: 1, inertia: 0.1 } } parts { foot[2]: crate::Foot { r: l / 3 } } \
         holonomic { for i in 0..2 { ankle[i]: pin(shin.at([l, i]), foot[i].sole.at([0, 0])) } } } } \
@@ -290,6 +307,8 @@ cases! {
     part_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[1] }" => "`leg[1]` is a part; choose what belongs to it";
     parts_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg» }" => "`leg` is a part; choose what belongs to it";
     no_such_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[2].tip }" => "there is no part `leg[2]`; there are `leg[0]`, `leg[1]`";
+    constant_of_a_part: "gravity { [0, -1] } parts { leg[2]: Leg } coords { x[leg[0].N + 1], y } mass { for i in 0..leg[1].N + 1 { x[i]: 1 } y: 1 } output { n = leg[0].m[leg[1].N - 1] * leg[0].N * y.powi(leg[0].N), o = x[leg[0].«M»] }" => "part `leg[0]` has no `M`";
+    value_of_a_part_as_an_index: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].m[«leg[1].l»] }" => "not an integer known at compile time";
     nothing_in_the_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tap» }" => "part `leg[1]` has no `tap`; did you mean `tip`?";
     no_such_function: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tarn»(0, 1.0) }" => "part `leg[1]` has no `tarn`; did you mean `turn`?";
     value_called: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tip»(0) }" => "`leg[1].tip` is not a function";
