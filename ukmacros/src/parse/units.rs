@@ -188,8 +188,9 @@ fn is_unit(tokens: &TokenStream, integers: &[String]) -> bool {
     let no_index = tokens.iter().any(power) || tokens.windows(2).any(beside);
     !names.is_empty()
         && tokens.iter().all(allowed)
-        && names.iter().all(|name| !integers.contains(name))
-        && (no_index || names.iter().all(|name| ukunits::is_known(name)))
+        && (no_index
+            || names.iter().all(|name| ukunits::is_known(name))
+                && names.iter().any(|name| !integers.contains(name)))
 }
 
 /// The unit in these brackets as a text; an empty one where it is in error, which is told.

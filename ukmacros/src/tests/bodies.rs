@@ -364,7 +364,7 @@ cases! {
     inertia_of_a_thin_rod: "bodies { spatial a { mass: 1, inertia: «[0, 1, 1]» } }" => "must be positive definite; about its own axis a thin rod has a small moment";
     inertia_of_a_thin_rod_on_a_ball: "bodies { spatial a { mass: 1, inertia: «[0, 1, 1]» } } tree { j: ball(ground.at([0, 0, 0]), a.at([1, 0, 0])) }" => "it may be left out, as 0, where the rod hangs on a joint";
     inertia_of_no_thin_rod: "bodies { spatial a { mass: 1, inertia: «[0, 1, 2]» } } tree { j: universal(ground.at([0, 0, 0]), a.at([1, 0, 0]), [0, 1, 0], [0, 0, 1]) }" => "no rigid body has this inertia";
-    inertia_of_nothing: "bodies { spatial a { mass: 1, inertia: «[0, 0, 1]» } } tree { j: universal(ground.at([0, 0, 0]), a.at([1, 0, 0]), [0, 1, 0], [0, 0, 1]) }" => "must be positive definite";
+    inertia_of_nothing: "bodies { spatial a { mass: 1, inertia: «[0, 0, 1]» } } tree { j: universal(ground.at([0, 0, 0]), a.at([1, 0, 0]), [0, 1, 0], [0, 0, 1]) }" => "must be positive definite; where the moment about one axis is j, those about the others are j/2 at least, as of a disc";
     inertia_not_positive: "bodies { spatial a { mass: 1, inertia: «[1, 1, 1, 2, 0, 0]» } }" => "must be positive definite";
     inertia_of_no_body: "params { j = 3.0 } bodies { spatial a { mass: 1, inertia: «[1, 1, j]» } }" => "no rigid body has this inertia";
     inertia_not_symmetric: "bodies { spatial a { mass: 1, inertia: «[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]» } }" => "the inertia of a body is a symmetric matrix";

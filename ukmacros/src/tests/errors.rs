@@ -317,7 +317,7 @@ cases! {
     option_behind_a_number: "coords { x } mass { x: 1.0 } start a(b = 1.0 «2.0») { x = b }" => "expected identifier";
     option_without_a_default: "coords { x } mass { x: 1.0 } start a(«b») { x = b }" => "option `b` needs a default: `b = 1.0`";
     option_like_a_parameter: "params { m = 1.0 } coords { x } mass { x: m } start a(«m» = 1.0) { x = m }" => "`m` is declared twice; names must be unique";
-    option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "a constant is known at compile time";
+    option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "the default of an option is a number, or made of constants; parameters stand in what the start says, beside the option";
     option_not_finite: "coords { x } mass { x: 1.0 } start a(b = «ln(0.0 - 1.0)») { x = b }" => "default of `b`";
     start_of_a_vector_of_nothing: "coords { x } mass { x: 1.0 } start a { «[]» near 1.0 }" => "a vector of coordinates, such as `[x, y] near [1.0, 0.0]`, needs one at least";
     start_of_a_vector_of_another_size: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { [x, y] near «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
@@ -330,7 +330,7 @@ cases! {
     start_of_a_wrong_turn: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { top.spin = «2.0» }" => "expected a vector of 3, found a number";
     start_of_what_no_body_has: "bodies { planar bar { mass: 1.0, inertia: 1.0 } } start a { bar.«spin» = 2.0 }" => "body `bar` has no coordinate `spin`";
     start_that_lasts_no_time: "coords { x } mass { x: 1.0 } start a until «0.0» { x = 1.0 }" => "a motion lasts a time above 0, not 0";
-    start_that_lasts_what_changes: "params { m = 1.0 } coords { x } mass { x: m } start a until «m» { x = 1.0 }" => "a constant is known at compile time";
+    start_that_lasts_what_changes: "params { m = 1.0 } coords { x } mass { x: m } start a until «m» { x = 1.0 }" => "how long a motion lasts is a number of units of time, or of constants; parameters and options do not change it";
     start_with_a_slip: "coords { x } mass { x: 1.0 } start a «till» 2.0 { x = 1.0 }" => "unexpected `till`; behind name and options of a start stands how long a motion from it lasts, `until 2.0`, or `{`";
     start_of_a_wrong_shape: "coords { x[2] } mass { x: 1.0 } start a { x = «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
@@ -521,6 +521,7 @@ cases! {
     torque_on_the_ground: "bodies { planar a { mass: 1, inertia: 1 } } nonideal { «torque(ground, 1)» }" => "the ground does not move, so that this `torque` does nothing";
     spring_between_places: "bodies { planar a { mass: 1, inertia: 1 } } forces { «spring(ground.at([0, 0]), ground.at([1, 0]), 1, 0)» }" => "the ground does not move, so that this `spring` does nothing";
     spring_of_one_body: "bodies { planar a { mass: 1, inertia: 1 } } forces { «spring(a.at([0, 0]), a.at([0, 0]), 1, 2)» «turning_spring(a, a, 1, 0)» }" => "both ends of this `spring` are on `a`, so that it does nothing; name two bodies", "both ends of this `turning_spring` are on `a`";
+    option_in_a_duration: "coords { x } mass { x: 1 } start s(tau = 3) until «tau» { x = tau }" => "unknown name `tau`";
     // Associated constants.
     constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
     outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";
@@ -542,7 +543,7 @@ cases! {
     reaction_of_a_row_without_name: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { p: rod(ground.at([0, 0]), a.at([1, 0]), 1) } output { a1 = reaction(p.«x») }" => "the rows of `p` have no names of their own; write `reaction(p)`";
     reaction_in_a_constraint: "coords { x, y } mass { x: 1, y: 1 } holonomic { rod: sin(x) = t, next: y = «reaction»(rod) }" => "reactions follow from all other equations: `reaction` stands under";
     reaction_in_a_force: "coords { x } mass { x: 1 } force { x: «reaction»(rod) } holonomic { rod: sin(x) = t }" => "reactions follow from all other equations: `reaction` stands under";
-    reaction_in_a_value: "coords { x } let n = «reaction»(rod); mass { x: 1 } holonomic { rod: sin(x) = t } output { a = n }" => "under `output`, `integral`, `draw` and `nonideal`, and in functions used there";
+    reaction_in_a_value: "coords { x } let n = «reaction»(rod); mass { x: 1 } holonomic { rod: sin(x) = t } output { a = n }" => "under `output`, `integral`, `draw` and `nonideal`, and in functions used there, of no argument as `let n = || reaction(…);` is";
     reaction_in_a_function_of_a_force: "coords { x } let n = |k| k * «reaction»(rod); mass { x: 1 } force { x: n(1) + n(2) } holonomic { rod: sin(x) = t }" => "and in functions used there";
     derivative_of_a_reaction: "coords { x } mass { x: 1 } holonomic { rod: sin(x) = t } output { a = «dot(reaction(rod))» }" => "the time derivative of a reaction is not solved for";
     reaction_without_a_straight_line: "coords { x, y, z } mass { x: 1 } holonomic { a: sin(y) * cos(z) = x, b: cos(y) * sin(z) = 2 * x } output { n = «reaction(a)» }" => "reactions cannot be used here, as they are not solved for on a straight line";

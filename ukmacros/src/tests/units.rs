@@ -58,6 +58,8 @@ fn constants_called_like_units_are_indices() {
     // Sizes, members beside others, entries of vectors by loops, by functions and by what is no unit; units of numbers.
     for body in [
         "const N: usize = 2; coords { x[N] } mass { x: 1 } force { x[0]: 3 [N] * sign(x[1]) }",
+        "const N: usize = 2; params { k[N] = [100, 120] [N/m], j[N] = [1, 2] [kg m^2] } coords { x[N] [m] } mass { x: j[0] / (1 [m^2]) } output { f [N/m] = k[1] }",
+        "const m: usize = 2; params { a[2] = [1, 2] [m^2], j[2] = [1, 2] [kg m^2] } coords { x[m] } mass { x: 1 } output { o = j[1] / a[0] }",
         "params { m = 2, N = 3 } coords { x [m], y[s], f [N] } mass { x: m, y: N, f: 1 } output { o [m] = x, pull[N * s] = 1 * f * y }",
         "const N: usize = 2; coords { x[N + 1] } mass { x: 1 } output { for i in 0..N { y[i] = x[i] } y[N] = x[N] }",
         "const N: usize = 2; coords { x[N] } mass { x: 1 } force { for J in 0..2 { x[J]: [1.0, 2.0][J] } }",

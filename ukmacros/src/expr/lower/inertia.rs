@@ -379,12 +379,17 @@ fn possible(numbers: &[f64], thin: bool) -> Result<(), String> {
     let definite = own.iter().chain(&pairs).chain([&det]).all(|x| *x > 0.0);
     let thin = thin && own.iter().all(|x| *x >= 0.0);
     if !(definite || thin) {
-        let remedy = match own.contains(&0.0) {
-            true => {
+        let zeros = own.iter().filter(|x| **x == 0.0).count();
+        let remedy = match zeros {
+            2 => {
+                "; where the moment about one axis is j, those about the others are j/2 at least, as of a disc: a body that turns about a \
+                 hinge alone does not feel them"
+            }
+            1 | 3 => {
                 "; about its own axis a thin rod has a small moment, m r²/2, too; it may be left out, as 0, where the rod hangs on a \
                  joint under `tree` that has angles for coordinates"
             }
-            false => "",
+            _ => "",
         };
         return Err(format!(
             "the inertia of a spatial body must be positive definite{remedy}"

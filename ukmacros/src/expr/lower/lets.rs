@@ -16,7 +16,7 @@ impl<'m> Lowering<'m> {
         let mut values = Vec::new();
         for constant in &self.model.floats {
             let what = format!("constant `{}`", constant.name);
-            let (id, value) = self.fixed(&constant.value, &what, top);
+            let (id, value) = self.fixed(&constant.value, &what, top, Place::Const);
             self.floats.push(id);
             values.push(value);
         }
@@ -24,9 +24,15 @@ impl<'m> Lowering<'m> {
     }
 
     /// The number that `e` is, known at compile time; reports `what` it is of if it is not finite.
-    pub(super) fn fixed(&mut self, e: &Expr, what: &str, top: &Scope<'m>) -> (Id, f64) {
+    pub(super) fn fixed(
+        &mut self,
+        e: &Expr,
+        what: &str,
+        top: &Scope<'m>,
+        place: Place,
+    ) -> (Id, f64) {
         let before = self.diag.len();
-        let id = self.scalar(e, &Env::new(top, Place::Const));
+        let id = self.scalar(e, &Env::new(top, place));
         let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
         if self.diag.len() == before {
             self.finite_number(what, value, e.loc);

@@ -49,6 +49,10 @@ use units::{Dimensions, Measured};
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     Const,
+    /// How long a start lasts.
+    Until,
+    /// The default of an option of a start.
+    Choice,
     Default,
     Let,
     Body,

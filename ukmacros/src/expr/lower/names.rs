@@ -307,6 +307,12 @@ impl<'m> Lowering<'m> {
                 Place::Const if uses.param || !uses.constant() => Some(
                     "a constant is known at compile time; make it a parameter, or a value by `let`",
                 ),
+                Place::Until if uses.param || !uses.constant() => Some(
+                    "how long a motion lasts is a number of units of time, or of constants; parameters and options do not change it",
+                ),
+                Place::Choice if uses.param || !uses.constant() => Some(
+                    "the default of an option is a number, or made of constants; parameters stand in what the start says, beside the option",
+                ),
                 Place::Default if !uses.constant() => Some(
                     "a parameter is a number; what changes with coordinates or time is declared by `let`",
                 ),

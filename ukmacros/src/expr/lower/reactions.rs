@@ -140,7 +140,7 @@ impl<'m> Lowering<'m> {
         let open = [Place::Output, Place::Integral, Place::Nonideal].contains(&env.place);
         if !self.constrained || !(open || self.applying()) {
             let message = format!(
-                "reactions follow from all other equations: `{name}` stands under `output`, `integral`, `draw` and `nonideal`, and in functions used there"
+                "reactions follow from all other equations: `{name}` stands under `output`, `integral`, `draw` and `nonideal`, and in functions used there, of no argument as `let n = || {name}(…);` is"
             );
             return self.error_once(name, message);
         }

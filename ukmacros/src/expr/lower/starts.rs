@@ -73,7 +73,7 @@ impl<'m> Lowering<'m> {
                 self.diag.error(option.name.span(), reason);
             }
             let what = format!("default of `{name}`");
-            let (id, default) = self.fixed(&option.default, &what, top);
+            let (id, default) = self.fixed(&option.default, &what, top, Place::Choice);
             let symbol = self.measured_option(id);
             let symbol = symbol.unwrap_or(Symbol::Param(parameters + options.len()));
             args.push((name.clone(), Value::Scalar(self.graph.symbol(symbol))));
@@ -90,7 +90,7 @@ impl<'m> Lowering<'m> {
     /// How long a motion lasts.
     fn lasting(&mut self, until: &Expr, top: &Scope<'m>) -> Option<f64> {
         let before = self.diag.len();
-        let (id, value) = self.fixed(until, "the duration", top);
+        let (id, value) = self.fixed(until, "the duration", top, Place::Until);
         if self.diag.len() > before {
             return None;
         }

@@ -272,7 +272,10 @@ impl<'m> Lowering<'m> {
     /// `value`, unless it is a number that is infinite or not a number. (Constants and defaults are checked as a whole.)
     fn finite(&mut self, value: Value, loc: Loc, env: &Env<'m>) -> Value {
         if let Value::Scalar(id) = value
-            && !matches!(env.place, Place::Const | Place::Default)
+            && !matches!(
+                env.place,
+                Place::Const | Place::Until | Place::Choice | Place::Default
+            )
             && !self.graph_finite(id)
         {
             return self.error(
