@@ -155,6 +155,10 @@ fn meant(error: &clap::Error, whole: &clap::Command, models: &[Entry]) -> Option
         let sets =
             |command: &clap::Command| command.get_arguments().any(|a| a.get_long() == Some("set"));
         let asked = std::env::args().nth(1)?;
+        if let Some(option) = setting.strip_prefix("--") {
+            let similar = error.get(ContextKind::SuggestedArg).is_some();
+            return (!similar).then(|| elsewhere(option, &asked, whole));
+        }
         let sets = whole.find_subcommand(asked).is_some_and(sets);
         return (bare && sets && setting.contains('='))
             .then(|| format!("`--set {setting}` sets a parameter or an option of the start"));
@@ -176,6 +180,23 @@ fn meant(error: &clap::Error, whole: &clap::Command, models: &[Entry]) -> Option
             nearest.map(|name| format!("a similar subcommand exists: '{name}'"))
         }
         _ => None,
+    }
+}
+
+/// Which commands have the `option` that the command `asked` has not.
+fn elsewhere(option: &str, asked: &str, whole: &clap::Command) -> String {
+    let has = |command: &&clap::Command| {
+        let mut arguments = command.get_arguments();
+        arguments.any(|a| a.get_long() == Some(option))
+    };
+    let others = whole.get_subcommands().filter(has);
+    let others: Vec<String> = others.map(|c| format!("`{}`", c.get_name())).collect();
+    match others.is_empty() {
+        true => format!(
+            "`{} {asked} --help` shows the options that there are",
+            program()
+        ),
+        false => format!("`--{option}` is an option of {}", others.join(", ")),
     }
 }
 

@@ -30,7 +30,7 @@ pub struct KinematicsArgs {
     #[arg(long = "drive", value_name = "NAME=FROM..TO[:STEP]", required = true, value_parser = drive, allow_hyphen_values = true)]
     pub drives: Vec<Drive>,
     /// Speed of the first drive; 1 in SI units if absent
-    #[arg(long, value_name = "SPEED", value_parser = Quantity::parse)]
+    #[arg(long, value_name = "SPEED", value_parser = Quantity::parse, allow_hyphen_values = true)]
     pub speed: Option<Quantity>,
     /// Coordinates on which forces or torques are to make the motion, such as the drive: `effort(NAME)` and `power(NAME)`; of more than it
     /// takes the least

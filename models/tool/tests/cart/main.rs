@@ -93,6 +93,16 @@ fn a_mechanism_is_listed_with_its_starts() {
         2,
         "tip: `diagnose` has degrees of freedom, ",
     );
+    fails(
+        "modes cart --until 3",
+        2,
+        "tip: `--until` is an option of `run`, ",
+    );
+    fails(
+        "modes cart --nothing",
+        2,
+        "tip: `cart modes --help` shows the options",
+    );
 }
 
 #[test]
@@ -428,6 +438,13 @@ fn drives_are_swept_to_the_limits_of_motion() {
     ] {
         assert!(told.contains(part), "{part} in {told}");
     }
+    let back = output("kinematics cart --drive x=0..30cm:15cm --hold s --speed -2 --csv -");
+    assert!(
+        back.lines()
+            .nth(3)
+            .is_some_and(|row| row.contains(",-2,-1.5,")),
+        "{back}"
+    );
     let table =
         output("kinematics cart --drive x=0..30cm:15cm --hold s --speed 2 --effort x,s --csv -");
     let mut rows = table.lines();
