@@ -18,6 +18,7 @@ pub(super) fn mark(tokens: &TokenStream, diag: &Diagnostics) -> Option<TokenStre
     let mut marking = Marking {
         constants: integers.len(),
         integers,
+        quoted: false,
         diag,
     };
     marking.level(tokens)
@@ -51,6 +52,8 @@ struct Marking<'d> {
     integers: Vec<String>,
     /// How many of them are constants: the first.
     constants: usize,
+    /// Whether a text in brackets is reported.
+    quoted: bool,
     diag: &'d Diagnostics,
 }
 
@@ -79,9 +82,18 @@ impl Marking<'_> {
                     let inside = self.integers.len();
                     self.integers.extend(variable);
                     // A vector that a start tells of, behind an entry without its comma.
-                    if bracket && let Some(text) = quoted(group) {
-                        let message = format!("a unit has no quotes, nor has an index: `[{text}]`");
-                        self.diag.damage(group.span(), message);
+                    if bracket
+                        && stands != Before::Other
+                        && let Some(text) = quoted(group)
+                    {
+                        // Left out, and told once.
+                        if !std::mem::replace(&mut self.quoted, true) {
+                            let message =
+                                format!("a unit has no quotes, nor has an index: `[{text}]`");
+                            self.diag.damage(group.span(), message);
+                        }
+                        changed = true;
+                        continue;
                     }
                     let stands = match rest.peek() {
                         Some(TokenTree::Ident(next)) if next == "near" => Before::Other,

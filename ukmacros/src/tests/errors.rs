@@ -258,6 +258,7 @@ cases! {
     path_of_a_fraction: "params { k = «consts::FRAC_PI_4» } coords { x } mass { x: k }" => "no paths here; write `PI / 4`";
     quoted_name: "coords { x } mass { x: 1 } holonomic { h: sin(x) = t } output { o = reaction(«\"h\"») }" => "not a number; a name has no quotes: `h`";
     quoted_unit: "coords { x «[\"m\"]» } mass { x: 1 }" => "a unit has no quotes, nor has an index: `[m]`";
+    quoted_units: "params { c = 1 «[\"N\"]», k[\"m\"] = 2 } coords { x [\"m\"] } mass { x[\"m\"]: c + k }" => "a unit has no quotes, nor has an index: `[N]`";
     quoted_index: "coords { x[2], y } mass { x: 1, y: 1 } holonomic { c«[\"u\"]»: x[0] = y }" => "a unit has no quotes, nor has an index: `[u]`";
     comment_with_a_hash: "params { m = 1, «#» mass
         k = 2 } coords { x } mass { x: m }" => "a comment begins with `//`";
