@@ -51,6 +51,17 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A point on a cone, and one by itself on two lines that cross.
+    Beside {
+        params { g = 2.0 }
+        coords { x, y, z, a, b }
+        mass { x: 1.0, y: 1.0, z: 1.0, a: 1.0, b: 1.0 }
+        potential { g * z }
+        holonomic { cone: sq(x) + sq(y) = sq(z), cross: a * b = 0.0 }
+    }
+}
+
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 /// Thrown up along a line of a cone from (−from, 0, −from) with x = z = −from + u t − ½ (g/2) t², a point gets to the apex and further
@@ -151,6 +162,32 @@ fn a_node_that_is_told_twice_is_passed() {
                 let end = run.last().expect("an end");
                 let off = (end.q[0] + 1.0).abs().max(end.q[1].abs());
                 assert!(off < 1e3 * tolerance + 1e-7, "{place}: {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_crossing_is_passed_while_another_motion_turns_before_an_apex() {
+    for method in METHODS {
+        for tolerance in [1e-4, 1e-7, 1e-10] {
+            for (top, from) in [(1e-2, 1.3), (1e-2, 1.39), (3e-2, 1.37), (0.1, 1.2)] {
+                let u = f64::sqrt(2.0 * (1.0 - top));
+                let start = at(&[-1.0, 0.0, -1.0, -from, 0.0], &[u, 0.0, u, 1.0, 0.0]);
+                let simulation = Simulation::new(Beside::default()).start(start);
+                let run = simulation.method(method).tolerance(tolerance).until(2.5);
+                let place = format!("{method}, {tolerance:e}, {top}, {from}");
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let [off, aside] = [0, 1].map(|k| {
+                    worst(&run, |s| match k {
+                        0 => (s.q[0] + 1.0 - u * s.t + 0.5 * s.t * s.t).abs(),
+                        _ => (s.q[3] + from - s.t).abs().max(s.q[4].abs()),
+                    })
+                });
+                assert!(
+                    off.max(aside) < 1e2 * tolerance + 1e-8,
+                    "{place}: {off:e}, {aside:e}"
+                );
             }
         }
     }

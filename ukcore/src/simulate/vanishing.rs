@@ -43,6 +43,11 @@ const DIP: f64 = 0.25;
 /// A row that is this share of what it has been is near to vanishing.
 const SMALL: f64 = 1.0 / 32.0;
 
+/// What is left of a row that vanishes with another one, as its copy does, is no more than so many times what is left of that, each as a
+/// share of what it has been; or than this, where that is zero but for rounding.
+const SCALED: f64 = 4.0;
+const AT_ZERO: f64 = 1e-5;
+
 /// Rows that had less than this beside others where a run began were implied by these.
 const INDEPENDENT: f64 = 1e-9;
 
@@ -403,8 +408,10 @@ impl RowWatch {
         [least, reached]: [f64; 2],
     ) -> Vanishing {
         let measure = self.measure.as_ref();
+        let share = |c: usize| there.length(c) / self.sizes[c];
+        let most = SCALED * share(row).max(AT_ZERO);
         let lost = |(c, size): (usize, &f64)| {
-            let with = self.may[c] && there.length(c) < DIP * size;
+            let with = self.may[c] && share(c) < most;
             if with || c == row { *size } else { 0.0 }
         };
         Vanishing {
