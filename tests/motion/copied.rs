@@ -62,6 +62,26 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// A row that fades, and one that vanishes where the lines of it cross, on one of which a point is held.
+    Fading {
+        coords { s, x, y }
+        mass { s: 1.0, x: 1.0, y: 1.0 }
+        holonomic { decay: sq(s) = exp(-t), product: x * y = 0.0, line: y = 0.0 }
+    }
+}
+
+ukcore::multibody! {
+    /// The cone, and a point that moves by itself.
+    Accompanied {
+        params { g = 2.0 }
+        coords { x, y, z, p }
+        mass { x: 1.0, y: 1.0, z: 1.0, p: 1.0 }
+        potential { g * z }
+        holonomic { cone: sq(x) + sq(y) = sq(z) }
+    }
+}
+
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 /// Thrown up along a line of a cone from (−from, 0, −from) with x = z = −from + u t − ½ (g/2) t², a point gets to the apex and further
@@ -188,6 +208,50 @@ fn a_crossing_is_passed_while_another_motion_turns_before_an_apex() {
                     off.max(aside) < 1e2 * tolerance + 1e-8,
                     "{place}: {off:e}, {aside:e}"
                 );
+            }
+        }
+    }
+}
+
+/// Another row has become small long since.
+#[test]
+fn a_crossing_is_passed_beside_a_row_that_has_faded() {
+    for method in METHODS {
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            for from in [2.0, 4.0, 5.5] {
+                let start = at(&[1.0, -from, 0.0], &[-0.5, 1.0, 0.0]);
+                let simulation = Simulation::new(Fading::default()).start(start);
+                let run = simulation.method(method).tolerance(tolerance).until(7.2);
+                let place = format!("{method}, {tolerance:e}, {from}");
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let off = worst(&run, |s| (s.q[1] + from - s.t).abs().max(s.q[2].abs()));
+                assert!(off < 1e-8, "{place}: {off:e}");
+            }
+        }
+    }
+}
+
+/// Steps are as long as they may be, for little else goes on.
+#[test]
+fn an_apex_ends_motions_over_it_and_back_whatever_else_moves() {
+    for method in METHODS {
+        for tolerance in [1e-3, 1e-4, 1e-6, 1e-9] {
+            for top in [1e-3, 1e-2, 0.1, 0.5] {
+                for speed in [0.0, 1.0, 20.0] {
+                    let u = f64::sqrt(2.0 * (1.0 + top));
+                    let start = at(&[-1.0, 0.0, -1.0, 0.0], &[u, 0.0, u, speed]);
+                    let simulation = Simulation::new(Accompanied::default()).start(start);
+                    let run = simulation.method(method).tolerance(tolerance).until(4.0);
+                    let place = format!("{method}, {tolerance:e}, {top}, {speed}");
+                    let failure = run.expect_err(&place);
+                    let Error::Singular { constraints } = cause(&failure.error).1 else {
+                        panic!("{place}: {failure}");
+                    };
+                    assert_eq!(constraints, &["cone"], "{place}");
+                    let apex = u - f64::sqrt(u * u - 2.0);
+                    let end = failure.trajectory.last().expect("it has begun").t;
+                    assert!(end <= apex, "{place}: {end}");
+                }
             }
         }
     }

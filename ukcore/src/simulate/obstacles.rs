@@ -209,12 +209,14 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     match found {
         Loss::Rows(rows) => {
             let holonomic = mech.spec().holonomic;
-            // Beside one that is of no concern nonholonomic ones may be.
+            // Beside one that is of no concern nonholonomic ones may be, or one where the motion rests.
             let mut rows = rows.into_iter().enumerate();
-            rows.find_map(|(k, found)| match k == 0 || found.row >= holonomic {
-                true => vanishing_row(mech, found, old),
-                false => None,
-            })
+            rows.find_map(
+                |(k, found)| match k == 0 || found.row >= holonomic || found.rest {
+                    true => vanishing_row(mech, found, old),
+                    false => None,
+                },
+            )
         }
         Loss::Within {
             mut row,

@@ -17,7 +17,6 @@ use crate::integrate::sample::Sample;
 use crate::integrate::{Method, between};
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
-use crate::scan::dot;
 use crate::solver::RANK_CEILING;
 use crate::zero::locate;
 use matrix::Matrix;
@@ -185,8 +184,11 @@ impl RowWatch {
         old: Sample<'_>,
         new: Sample<'_>,
     ) -> Option<Loss> {
-        let rests = dot(old.v, new.v) < 0.0;
-        if mech.spec().m() == 0 || !(rests || self.is_due(old.t, new.t)) {
+        if mech.spec().m() == 0 {
+            return None;
+        }
+        let rests = self.turning(mech, old, new);
+        if rests.is_none() && !self.is_due(old.t, new.t) {
             return None;
         }
         let first = self.look(mech, old, new);
@@ -204,8 +206,8 @@ impl RowWatch {
         let mut rows: Vec<Vanishing> = vanish.collect();
         rows.sort_by(|a, b| a.least.total_cmp(&b.least));
         if rows.is_empty() {
-            let row = rests.then(|| self.resting(mech, old, new)).flatten();
-            rows.extend(row.or_else(|| self.smallest(&self.here, new)));
+            rows.extend(self.smallest(&self.here, new));
+            rows.extend(rests.and_then(|part| self.resting(mech, old, new, part)));
         }
         let told = (!rows.is_empty()).then_some(Loss::Rows(rows));
         let told = told.or_else(|| self.dependent(mech, old, new, None));
@@ -261,9 +263,36 @@ impl RowWatch {
         self.sizes.is_empty() || (to - self.due) * (to - from) >= 0.0
     }
 
-    /// The row that is all but zero where the motion comes to rest on its way from `old` to `new`, if one is.
-    fn resting(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
-        let part = turning(old, new);
+    /// The part of the step from `old` to `new` at which a motion that goes back turns, be it of the coordinates of a row alone.
+    fn turning(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<f64> {
+        let mut going = vec![0.0; mech.spec().m()];
+        for (c, i) in mech.spec().structure.jacobian_pattern {
+            going[*c] += old.v[*i] * new.v[*i];
+        }
+        let back = |c: &usize| going[*c] < 0.0 && self.may.get(*c) != Some(&false);
+        let row = (0..going.len()).find(back)?;
+        let pattern = mech.spec().structure.jacobian_pattern.iter();
+        let own: Vec<usize> = pattern
+            .filter(|(c, _)| *c == row)
+            .map(|(_, i)| *i)
+            .collect();
+        let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
+            let v = between_states(old, new, part).v;
+            let each = own.iter().map(|i| v[*i] * (new.v[*i] - old.v[*i]));
+            Ok(each.sum())
+        };
+        let Ok(part) = locate(turned, 0.0, 1.0);
+        Some(part)
+    }
+
+    /// The row that is all but zero where the motion turns back at a part of its way from `old` to `new`, if one is.
+    fn resting(
+        &self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+        part: f64,
+    ) -> Option<Vanishing> {
         let state = between_states(old, new, part);
         let matrix = |at| Matrix::at(mech, at, self.measure.as_ref(), &self.leaves);
         let between = matrix(Sample::from(&state));
@@ -409,9 +438,11 @@ impl RowWatch {
     ) -> Vanishing {
         let measure = self.measure.as_ref();
         let share = |c: usize| there.length(c) / self.sizes[c];
-        let most = SCALED * share(row).max(AT_ZERO);
+        // Others may have faded long since.
+        let shrunk = |c: usize| there.length(c) / self.seen.length(c);
+        let [most, fastest] = [share(row), shrunk(row)].map(|x| SCALED * x.max(AT_ZERO));
         let lost = |(c, size): (usize, &f64)| {
-            let with = self.may[c] && share(c) < most;
+            let with = self.may[c] && share(c) < most && shrunk(c) < fastest;
             if with || c == row { *size } else { 0.0 }
         };
         Vanishing {
@@ -527,16 +558,6 @@ pub(super) fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> Sta
     let mut state = old.to_state();
     go_between(old, new, part, &mut state);
     state
-}
-
-/// The part of the step from `old` to `new` at which a motion that goes back turns.
-fn turning(old: Sample<'_>, new: Sample<'_>) -> f64 {
-    let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
-        let v = between_states(old, new, part).v;
-        Ok(dot(&v, new.v) - dot(&v, old.v))
-    };
-    let Ok(part) = locate(turned, 0.0, 1.0);
-    part
 }
 
 /// Puts the state at a part of the step from `old` to `new`, on the cubics through both, into `state`.

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::matrix::Matrix;
-use super::{BEFORE, CHANGE, HALVINGS, RowWatch, Vanishing, between_states, go_between, turning};
+use super::{BEFORE, CHANGE, HALVINGS, RowWatch, Vanishing, between_states, go_between};
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
 
@@ -18,16 +18,14 @@ impl RowWatch {
         mech: &Prepared,
         old: Sample<'_>,
         new: Sample<'_>,
-        rests: bool,
+        rests: Option<f64>,
     ) -> Option<Vanishing> {
         if !self.may[..self.holonomic].contains(&true) {
             return None;
         }
         let mut parts = LOOKS.to_vec();
-        if rests {
-            parts.push(turning(old, new));
-            parts.sort_by(f64::total_cmp);
-        }
+        parts.extend(rests);
+        parts.sort_by(f64::total_cmp);
         let mut looks = std::mem::take(&mut self.looks);
         let [start, rest @ ..] = &mut looks;
         let known = self.seen.t == old.t;
