@@ -31,8 +31,8 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// A function g(t, q, q̇) whose zeros are to be located.
 ///
 /// A zero counts where g changes its sign, or arrives at exactly 0; a g that starts at exactly 0 is not an event. Its time is
-/// located to rounding on the interpolant of the step, at projected states. Where dry friction has the motion stick at a zero of its switch,
-/// a zero of g that the error of the step leaves ahead counts as met there: the hit has the state where the run stands.
+/// located to rounding on the interpolant of the step, at projected states. Where dry friction has the motion stick at a zero of its
+/// switch, a zero of g that the error of the step leaves ahead counts as met there: the hit has the state where the run stands.
 /// Where g is not a number, the run fails with an error that says so.
 ///
 /// Signs are compared soon after the start of a step, at some eight places along it, at more where these do not tell how g goes, as along a
