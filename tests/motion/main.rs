@@ -29,6 +29,7 @@ mod redundant_loop;
 mod rounded;
 mod rows_in_time;
 mod scales;
+mod scissors;
 mod slots;
 mod stability;
 mod stiff;

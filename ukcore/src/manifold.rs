@@ -16,7 +16,7 @@ use crate::naming;
 use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
-use crate::solver::Baumgarte;
+use crate::solver::{Baumgarte, doubtful};
 
 mod acceptance;
 mod level;
@@ -268,6 +268,8 @@ pub(crate) struct Manifold {
     noise: Noise,
     factors: Factors,
     start: Vec<f64>,
+    /// Velocities of zero.
+    rest: Vec<f64>,
 }
 
 impl Manifold {
@@ -281,6 +283,7 @@ impl Manifold {
             noise: Noise::new(mechanism),
             factors,
             start: vec![0.0; mechanism.spec().n()],
+            rest: vec![0.0; mechanism.spec().n()],
         }
     }
 
@@ -303,7 +306,8 @@ impl Manifold {
         self.start.copy_from_slice(x);
         if at.straight_line() && self.newton.acceptance.ease.is_empty() {
             let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
-            if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
+            let accepted = good > 0.5 || stalled > 0.5 && self.accept(at, x, false);
+            if good > 0.5 || accepted && !self.leaves_out(at, x) {
                 return Ok(self.correction(x, steps));
             }
             x.copy_from_slice(&self.start);
@@ -311,6 +315,22 @@ impl Manifold {
         let steps = self.reveal(at, x);
         let steps = steps.inspect_err(|_| x.copy_from_slice(&self.start))?;
         Ok(self.correction(x, steps))
+    }
+
+    /// Whether the elimination leaves out rows at `x` of which more than rounding is left there: they do not follow from the others, and what
+    /// its steps leave of their residuals steps with all rows take off. Where rows are in doubt it tells so of accelerations alone, and as
+    /// doubtful where velocities do not meet the constraints yet, or forces have no value at rest: one of both is enough.
+    fn leaves_out(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
+        if at.mech.spec().structure.solve.redundant.is_empty() {
+            return false;
+        }
+        let out = &mut self.newton.step;
+        let mut doubts = |q: &[f64], v: &[f64]| doubtful(at.mech.acceleration(at.t, q, v, out));
+        let rest = &self.rest;
+        match at.level {
+            Level::Position => doubts(x, rest) && doubts(x, at.other),
+            Level::Velocity => doubts(at.other, x),
+        }
     }
 
     /// What `count` steps to `x` have done.

@@ -36,8 +36,8 @@ mod refine;
 mod settings;
 
 use agreement::Drift;
-pub(crate) use dropping::Accepted;
 use dropping::Dropping;
+pub(crate) use dropping::{Accepted, doubtful};
 pub(crate) use rank::{Independent, leading};
 pub use settings::{Baumgarte, Formula, Solution, SolverOptions, SolverWork};
 

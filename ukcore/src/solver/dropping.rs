@@ -16,6 +16,11 @@ const UNEVEN: f64 = 0.75;
 const DROPPED: f64 = 1.0 / 1024.0;
 const DRIFTED: f64 = 0.5;
 
+/// Whether an elimination with this certificate has pivots that are not safe, or has left out rows of which more than rounding is left.
+pub(crate) fn doubtful(certificate: f64) -> bool {
+    certificate.is_nan() || certificate <= WHOLE - DRIFTED
+}
+
 /// Projections that have to succeed after one that failed.
 const DOUBT: usize = 8;
 
