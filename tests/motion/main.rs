@@ -41,3 +41,4 @@ mod turned;
 mod two_loops;
 mod vanishing;
 mod wheels_across;
+mod wishbones;

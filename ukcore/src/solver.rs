@@ -32,6 +32,7 @@ mod agreement;
 mod dropping;
 mod light;
 mod rank;
+mod reduced;
 mod refine;
 mod settings;
 

@@ -7,10 +7,14 @@
 //!
 //! A part may vanish at single states, as that of a crank in line with its rod: so a row is even once it was so at one state, with
 //! parameters as they are. What rounding is then at such states, it is at all.
+//!
+//! What constraints give by other coordinates is as exact as these: where not all rows are even, those that multipliers are solved for are
+//! looked at in the coordinates that are left, by what each of these keeps of its own forces ([`super::reduced`]).
 
 use std::ops::Range;
 
 use super::Solver;
+use super::reduced::Reduced;
 use crate::mechanism::Evaluated;
 use crate::spec::Spec;
 
@@ -18,6 +22,9 @@ use crate::spec::Spec;
 const SHARE: f64 = 1e-4;
 /// Inertias within this factor of each other are taken together.
 const ALIKE: f64 = 16.0;
+
+/// What coordinates keep is looked at once in so many evaluations at the least.
+const OFTEN: usize = 64;
 
 /// What is known of the rows.
 #[derive(Debug, Clone)]
@@ -28,6 +35,10 @@ pub(super) struct Light {
     parts: Vec<(f64, f64)>,
     /// The coordinates of the quaternions whose turns the elimination has in their place.
     quaternions: Vec<Range<usize>>,
+    /// The rows that multipliers are solved for, where others give coordinates.
+    reduced: Option<Reduced>,
+    /// How often these might have been looked at.
+    asked: usize,
 }
 
 impl Light {
@@ -36,6 +47,8 @@ impl Light {
         let turned = structure.solve.turned.iter();
         let quaternions = turned.filter_map(|row| four(structure.in_row(*row)));
         Light {
+            reduced: Reduced::new(spec),
+            asked: 0,
             even: vec![false; spec.m()],
             parts: Vec::with_capacity(spec.n()),
             quaternions: quaternions.collect(),
@@ -45,6 +58,7 @@ impl Light {
     /// Parameters have changed.
     pub(super) fn forget(&mut self) {
         self.even.fill(false);
+        self.asked = 0;
     }
 
     /// Takes the rows as they are in `here`, at the coordinates `q`; whether all have been even at some state.
@@ -63,7 +77,18 @@ impl Light {
             }
         }
         let mut rows = self.even.iter().enumerate();
-        rows.all(|(c, even)| *even || turned.contains(&c))
+        rows.all(|(c, even)| *even || turned.contains(&c)) || self.keeps_forces(here, q)
+    }
+
+    /// Whether each of the coordinates that are left keeps its share of its own forces at this state. It is work for some evaluations, so
+    /// states are looked at less and less often.
+    fn keeps_forces(&mut self, here: &Evaluated, q: &[f64]) -> bool {
+        let Some(reduced) = &mut self.reduced else {
+            return false;
+        };
+        self.asked += 1;
+        let now = self.asked.is_power_of_two() || self.asked.is_multiple_of(OFTEN);
+        now && reduced.kept(here, q) >= SHARE
     }
 
     /// Takes the parts of row `c`, those of quaternions by their coordinates or `by_turns`.
@@ -93,14 +118,14 @@ impl Light {
 }
 
 /// The range of these coordinates, if they are four that stand beside each other, as a quaternion's.
-fn four(coordinates: impl Iterator<Item = usize> + Clone) -> Option<Range<usize>> {
+pub(super) fn four(coordinates: impl Iterator<Item = usize> + Clone) -> Option<Range<usize>> {
     let first = coordinates.clone().next()?;
     let all = first..first + 4;
     coordinates.eq(all.clone()).then_some(all)
 }
 
 /// The changes of the quaternion e by turns about the axes of its body.
-fn turns(e: &[f64]) -> [[f64; 4]; 3] {
+pub(super) fn turns(e: &[f64]) -> [[f64; 4]; 3] {
     [
         [-e[1], e[0], e[3], -e[2]],
         [-e[2], -e[3], e[0], e[1]],
