@@ -3,7 +3,7 @@
 
 use ukcore::equations::precise;
 use ukcore::solver::SolverOptions;
-use ukcore::{Mechanism, Simulation, Solver, State};
+use ukcore::{Mechanism, Simulation, Solver, State, lost_digits};
 
 ukcore::multibody! {
     /// A body with one wheel on two wishbones and a tie rod. Wishbones are so many times as heavy.
@@ -119,10 +119,18 @@ fn wheels_on_wishbones_need_no_dense_solve() {
     are_exact::<Front>(start.expect("a start"));
 }
 
-/// Wishbones that are so light that half of their digits would be lost are left to the dense solve.
+/// Wishbones that are so light that half of their digits would be lost are left to the dense solve, and are named.
 #[test]
 fn wishbones_that_are_too_light_are_told() {
     let start = Corner::default().start("drop", &[].into());
-    let (worst, dense) = by::<Corner>(1e-8, &[start.expect("a start")]);
+    let start = start.expect("a start");
+    assert_eq!(lost_digits(Corner::default(), &start), None);
+    let light = Corner {
+        times: 1e-8,
+        ..Corner::default()
+    };
+    let told = lost_digits(&light, &start).expect("a cause");
+    assert!(told.contains("`upper` is"), "{told}");
+    let (worst, dense) = by::<Corner>(light.times, &[start]);
     assert!(worst < 1e-12 && dense == 1, "{worst:e}, {dense}");
 }

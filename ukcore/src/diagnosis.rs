@@ -18,10 +18,12 @@ use crate::spec::{Body, Spec};
 use crate::spectrum::singular;
 
 mod dead_centre;
+mod digits;
 mod light;
 
 use dead_centre::NEARLY;
 pub(crate) use dead_centre::{STANDS, dead_centre, leader};
+pub use digits::lost_digits;
 use light::light;
 
 /// A row takes part in what comes near to dependence if it has this part of the largest share.

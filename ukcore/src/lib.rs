@@ -76,7 +76,7 @@ mod zero;
 
 pub use assemble::{State, assemble};
 pub use branches::{assemble_with_alternatives, branches};
-pub use diagnosis::{diagnose, diagnose_along, lost_reactions};
+pub use diagnosis::{diagnose, diagnose_along, lost_digits, lost_reactions};
 pub use equilibrium::equilibrium;
 pub use error::Error;
 pub use inverse::{inverse, inverse_forces};

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
 use ukcore::solver::SolverOptions;
 use ukcore::spec::Spec;
-use ukcore::{Solver, State, Trajectory, lost_reactions};
+use ukcore::{Solver, State, Trajectory, lost_digits, lost_reactions};
 
 use crate::drift::Drift;
 use crate::motion::Motion;
@@ -224,10 +224,15 @@ impl Summary<'_> {
     /// Why the straight line was left, as far as the last state tells.
     fn doubt(&self) -> String {
         let names = self.implied();
-        match names.is_empty() {
-            false => format!("the other constraints imply {}", names.join(", ")),
-            true => "its pivots lose their digits, as constraints nearly imply each other or masses are many orders apart".to_owned(),
+        if !names.is_empty() {
+            return format!("the other constraints imply {}", names.join(", "));
         }
+        let last = self.trajectory.last().map(|last| last.to_state());
+        let told = last.and_then(|last| lost_digits(self.trajectory.mechanism(), &last));
+        let why = told.map_or(String::new(), |told| {
+            format!(", as {told} at the last state")
+        });
+        format!("its pivots lose digits{why}")
     }
 
     /// Which outputs are not finite, and why, as far as reactions are the cause.
