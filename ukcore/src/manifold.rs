@@ -317,9 +317,9 @@ impl Manifold {
         Ok(self.correction(x, steps))
     }
 
-    /// Whether the elimination leaves out rows at `x` of which more than rounding is left there: they do not follow from the others, and what
-    /// its steps leave of their residuals steps with all rows take off. Where rows are in doubt it tells so of accelerations alone, and as
-    /// doubtful where velocities do not meet the constraints yet, or forces have no value at rest: one of both is enough.
+    /// Whether the elimination leaves out rows at `x` of which more than rounding is left there: they do not follow from the others, and
+    /// what its steps leave of their residuals steps with all rows take off. It tells so of accelerations alone, and also where velocities do
+    /// not meet the constraints yet, or forces have no value at rest: that one of both tells nothing of the kind is enough.
     fn leaves_out(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
         if at.mech.spec().structure.solve.redundant.is_empty() {
             return false;
