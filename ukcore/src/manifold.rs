@@ -318,8 +318,8 @@ impl Manifold {
     }
 
     /// Whether the elimination leaves out rows at `x` of which more than rounding is left there: they do not follow from the others, and
-    /// what its steps leave of their residuals steps with all rows take off. It tells so of accelerations alone, and also where velocities do
-    /// not meet the constraints yet, or forces have no value at rest: that one of both tells nothing of the kind is enough.
+    /// what its steps leave of their residuals steps with all rows take off. It tells so of accelerations alone, and also where velocities
+    /// do not meet the constraints yet, or forces have no value at rest: that one of both tells nothing of the kind is enough.
     fn leaves_out(&mut self, at: &At<'_, f64>, x: &[f64]) -> bool {
         if at.mech.spec().structure.solve.redundant.is_empty() {
             return false;

@@ -2,8 +2,8 @@
 //!
 //! A coordinate that a constraint gives by others is as exact as these, whatever its inertia: nothing of it is what is left of large
 //! forces. So where the emitted elimination takes coordinates together with constraints, it is in the system that these leave, M' = Zᵀ M Z
-//! and A' = A Z, that light coordinates tied to heavy ones lose their digits. There it counts what a coordinate moves: a light wishbone with
-//! the wheel that hangs on it is not light.
+//! and A' = A Z, that light coordinates tied to heavy ones lose their digits. There it counts what a coordinate moves: a light wishbone
+//! with the wheel that hangs on it is not light.
 //!
 //! Let M' = L D Lᵀ, in the order of the elimination, and B = A' L⁻ᵀ D^−½. Then D^½ Lᵀ q̈ = P D^−½ L⁻¹ Q' but for what b asks for, where P
 //! is the projection across the rows of B: entry j is P_jj times what it would be without constraints, beside parts of the others. The
