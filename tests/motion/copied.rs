@@ -1,21 +1,11 @@
 //! Rows of A that vanish together with copies of theirs, as over the apex of a cone that is told twice, and motions that turn just before.
 
+use crate::vanishing::apexes::Cone;
 use tests::{at, cause, worst};
 use ukcore::{Error, Method, Prepared, Simulation};
 
 ukcore::multibody! {
-    /// A point on a cone.
-    Cone {
-        params { g = 0.0 }
-        coords { x, y, z }
-        mass { x: 1.0, y: 1.0, z: 1.0 }
-        potential { g * z }
-        holonomic { cone: sq(x) + sq(y) = sq(z) }
-    }
-}
-
-ukcore::multibody! {
-    /// The same, told in other units beside it.
+    /// A point on a cone that is told in other units beside it.
     Scaled {
         params { g = 0.0, k = 2.0 }
         coords { x, y, z }

@@ -1,7 +1,7 @@
 //! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it
 //! it turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
 
-mod apexes;
+pub(crate) mod apexes;
 
 use tests::{apart, at, cause, largest, worst};
 use ukcore::{Ensemble, Error, Method, Prepared, Simulation};

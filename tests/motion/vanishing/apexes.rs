@@ -7,7 +7,7 @@ use ukcore::{Ensemble, Error, Method, Simulation, State};
 
 ukcore::multibody! {
     /// A point on a cone, free of forces unless it is heavy.
-    Cone {
+    pub(crate) Cone {
         params { g = 0.0 }
         coords { x, y, z }
         mass { x: 1.0, y: 1.0, z: 1.0 }

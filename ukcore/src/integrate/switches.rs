@@ -146,13 +146,12 @@ impl Switches {
                 if after >= 0.0 || after.is_nan() || self.targets.contains(&k) {
                     continue;
                 }
-                if before <= 0.0 && a == from {
-                    at_once.push(k);
-                    continue;
-                }
                 if before <= 0.0 {
                     // It is zero just where this part begins.
-                    zeros.push((a, k));
+                    match a == from {
+                        true => at_once.push(k),
+                        false => zeros.push((a, k)),
+                    }
                     continue;
                 }
                 let outside = |theta: f64| -> Result<f64, std::convert::Infallible> {

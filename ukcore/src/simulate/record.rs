@@ -6,9 +6,9 @@ use super::agenda::Agenda;
 use super::integrals::{Along, Integrals};
 use crate::assemble::State;
 use crate::error::Error;
-use crate::events::{Event, EventHit, States, Watch};
+use crate::events::{Direction, Event, EventHit, States, Watch};
 use crate::integrate::sample::Sample;
-use crate::integrate::{Step, Tolerance};
+use crate::integrate::{Next, Step, Tolerance};
 use crate::manifold::Projector;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
@@ -92,30 +92,18 @@ impl<'s> Recorder<'s> {
 
     /// Takes the events whose zeros lie between the state where the run stands and one just `beyond`, into which it does not get. Whether
     /// one of them ends the run.
-    pub(super) fn rests(&mut self, beyond: Sample<'_>) -> Result<bool, Error> {
-        let Some(State { t, q, v }) = self.trajectory.end.clone() else {
-            return Ok(false);
+    pub(super) fn rests(&mut self, beyond: Sample<'_>) -> Result<Next, Error> {
+        let Some(here) = self.trajectory.end.clone() else {
+            return Ok(Next::Continue);
         };
-        let met = self.watch.up_to(beyond)?;
-        let mut ends = false;
-        for (event, direction) in met {
-            let (name, terminal) = (event.name.clone(), event.terminal);
-            let (q, v) = (q.clone(), v.clone());
-            self.trajectory.events.push(EventHit {
-                name,
-                t,
-                q,
-                v,
-                direction,
-            });
-            ends |= terminal;
-            if terminal {
-                self.trajectory.ending = Ending::Event;
-                break;
-            }
+        let mut met = self.watch.up_to(beyond)?.into_iter();
+        let events = &mut self.trajectory.events;
+        let ends = met.any(|(event, direction)| meet(events, event, direction, here.clone()));
+        if ends {
+            self.trajectory.ending = Ending::Event;
         }
         self.hand_over();
-        Ok(ends)
+        Ok(if ends { Next::Stop } else { Next::Continue })
     }
 
     /// Takes from a step what is wanted of it, and returns the error of what is integrated along it; a failure leaves behind what was taken
@@ -141,18 +129,9 @@ impl<'s> Recorder<'s> {
             let event = &self.watch.events[crossing.event];
             let t = crossing.t;
             within.consistent(t, between)?;
-            let State { t, q, v } = Sample::of(t, between).to_state();
-            let (name, direction) = (event.name.clone(), crossing.direction);
-            trajectory.events.push(EventHit {
-                name,
-                t,
-                q,
-                v,
-                direction,
-            });
-            if event.terminal {
-                t_stop = t;
-                trajectory.ending = Ending::Event;
+            let here = Sample::of(t, between).to_state();
+            if meet(&mut trajectory.events, event, crossing.direction, here) {
+                (t_stop, trajectory.ending) = (t, Ending::Event);
             }
         }
         if let Some(integrals) = &mut self.integrals {
@@ -239,6 +218,20 @@ impl<'s> Recorder<'s> {
         work.projection_iterations += velocity.iterations;
         Ok(())
     }
+}
+
+/// Takes a hit of `event` at a state. Whether the run ends there.
+fn meet(events: &mut Vec<EventHit>, event: &Event, direction: Direction, here: State) -> bool {
+    let State { t, q, v } = here;
+    let name = event.name.clone();
+    events.push(EventHit {
+        name,
+        t,
+        q,
+        v,
+        direction,
+    });
+    event.terminal
 }
 
 /// Counts as the error of a step that is too long to tell how events go.

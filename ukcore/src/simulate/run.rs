@@ -188,10 +188,7 @@ impl Problem for Run<'_> {
     }
 
     fn rests(&mut self, beyond: Sample<'_>) -> Result<Next, Error> {
-        Ok(match self.recorder.rests(beyond)? {
-            true => Next::Stop,
-            false => Next::Continue,
-        })
+        self.recorder.rests(beyond)
     }
 
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {

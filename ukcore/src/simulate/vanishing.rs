@@ -133,6 +133,8 @@ pub(super) struct RowWatch {
     past: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
+    /// For each row, the product of the velocities of its coordinates at both ends of the step in hand.
+    going: Vec<f64>,
     /// What has become of rows between both.
     compared: Compared,
     /// Whether combinations of rows are looked at, too.
@@ -264,21 +266,19 @@ impl RowWatch {
     }
 
     /// The part of the step from `old` to `new` at which a motion that goes back turns, be it of the coordinates of a row alone.
-    fn turning(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<f64> {
-        let mut going = vec![0.0; mech.spec().m()];
-        for (c, i) in mech.spec().structure.jacobian_pattern {
-            going[*c] += old.v[*i] * new.v[*i];
+    fn turning(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<f64> {
+        let structure = &mech.spec().structure;
+        self.going.clear();
+        self.going.resize(mech.spec().m(), 0.0);
+        for (c, i) in structure.jacobian_pattern {
+            self.going[*c] += old.v[*i] * new.v[*i];
         }
-        let back = |c: &usize| going[*c] < 0.0 && self.may.get(*c) != Some(&false);
-        let row = (0..going.len()).find(back)?;
-        let pattern = mech.spec().structure.jacobian_pattern.iter();
-        let own: Vec<usize> = pattern
-            .filter(|(c, _)| *c == row)
-            .map(|(_, i)| *i)
-            .collect();
+        let back = |c: &usize| self.going[*c] < 0.0 && self.may.get(*c) != Some(&false);
+        let row = (0..self.going.len()).find(back)?;
+        let own = structure.in_row(row);
         let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
             let v = between_states(old, new, part).v;
-            let each = own.iter().map(|i| v[*i] * (new.v[*i] - old.v[*i]));
+            let each = own.clone().map(|i| v[i] * (new.v[i] - old.v[i]));
             Ok(each.sum())
         };
         let Ok(part) = locate(turned, 0.0, 1.0);

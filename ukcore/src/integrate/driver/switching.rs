@@ -6,7 +6,7 @@ use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::sums::projection_norm;
 use crate::integrate::switches::{Leaving, Seen, Stuck};
-use crate::integrate::{Next, PROJECTION_LIMIT};
+use crate::integrate::{Next, PROJECTION_LIMIT, Problem};
 use crate::mechanism::Branch;
 use crate::scan::axpy;
 
@@ -198,18 +198,13 @@ impl Driver<'_> {
             return false;
         }
         let problem = &mut *self.equations.problem;
-        let mut values = vec![0.0; problem.switches()];
-        let mut rates = values.clone();
-        problem.switching(at, &mut values);
-        problem.switching_rate(at, &acceleration, &mut rates);
+        let [values, rates] = moving(problem, at, &acceleration);
         let late = switches.iter().map(|k| values[*k] / rates[*k]);
         let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let Some(late) = late.filter(|late| late.is_finite()) else {
             return false;
         };
-        let mut zero = y.clone();
-        axpy(-late, &y[n..], &mut zero[..n]);
-        axpy(-late, &acceleration, &mut zero[n..]);
+        let zero = on_by(-late, &y, &acceleration);
         let tolerance = &self.settings.tolerance;
         let mut entered = |t: f64, y: &[f64]| {
             let mut entered = y.to_vec();
@@ -250,37 +245,48 @@ impl Driver<'_> {
         let (now, y) = (self.equations.course.now, self.scheme.start().to_vec());
         let (n, at) = (y.len() / 2, Sample::of(now.t, &y));
         let mut acceleration = vec![0.0; n];
-        let mut values = vec![0.0; self.equations.problem.switches()];
-        let (mut rates, mut behind) = (values.clone(), values.clone());
         let direction = self.equations.course.along;
         let problem = &mut *self.equations.problem;
         if problem.acceleration(at, &mut acceleration).is_err() {
             return false;
         }
-        problem.switching(at, &mut values);
-        problem.switching_rate(at, &acceleration, &mut rates);
+        let [values, rates] = moving(problem, at, &acceleration);
         // What lies behind them already the step has met.
         if (switches.iter()).any(|k| values[*k] * rates[*k] * direction > 0.0) {
             return false;
         }
         let left = switches.iter().map(|k| (values[*k] / rates[*k]).abs());
         let mut way = left.fold(f64::EPSILON * now.t.abs(), f64::max);
+        let mut behind = vec![0.0; values.len()];
         for _ in 0..BEHIND {
             let along = direction * way;
-            let mut beyond = y.clone();
-            axpy(along, &y[n..], &mut beyond[..n]);
-            axpy(along, &acceleration, &mut beyond[n..]);
+            let beyond = on_by(along, &y, &acceleration);
             let beyond = Sample::of(now.t + along, &beyond);
-            let problem = &mut *self.equations.problem;
             problem.switching(beyond, &mut behind);
-            if switches
-                .iter()
-                .all(|k| behind[*k] * rates[*k] * along > 0.0)
-            {
+            let passed = |k: &usize| behind[*k] * rates[*k] * along > 0.0;
+            if switches.iter().all(passed) {
                 return matches!(problem.rests(beyond), Ok(Next::Stop));
             }
             way *= 2.0;
         }
         false
     }
+}
+
+/// The values of the switches of a problem at a state, and their rates with these accelerations.
+fn moving(problem: &mut dyn Problem, at: Sample<'_>, acceleration: &[f64]) -> [Vec<f64>; 2] {
+    let mut values = vec![0.0; problem.switches()];
+    let mut rates = values.clone();
+    problem.switching(at, &mut values);
+    problem.switching_rate(at, acceleration, &mut rates);
+    [values, rates]
+}
+
+/// The state that a motion in `y` goes on to in a time, with these accelerations.
+fn on_by(time: f64, y: &[f64], acceleration: &[f64]) -> Vec<f64> {
+    let n = acceleration.len();
+    let mut on = y.to_vec();
+    axpy(time, &y[n..], &mut on[..n]);
+    axpy(time, acceleration, &mut on[n..]);
+    on
 }

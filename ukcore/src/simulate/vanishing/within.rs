@@ -117,10 +117,9 @@ impl RowWatch {
             };
             let ends = self.here.length(row).min(looks[0].1.length(row));
             let near = at((from.0 - BEFORE).max(0.0));
-            let [least, other] = [&from.1, &to.1];
-            let least = match least.length(row) < other.length(row) {
-                true => least,
-                false => other,
+            let least = match to.1.length(row) < from.1.length(row) {
+                true => &to.1,
+                false => &from.1,
             };
             let shares = [least.length(row) / ends, ends / self.sizes[row]];
             let t = at(0.5 * (from.0 + to.0)).t;
