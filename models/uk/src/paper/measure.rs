@@ -1,6 +1,6 @@
 //! Numbers taken from curves: minima, and the oscillation in a drifting signal.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Matrix6, Vector6};
 use uktool::numbers::extremes;
 
 /// (√5 − 1)/2.
@@ -66,18 +66,24 @@ pub(super) fn oscillation(samples: &[(f64, f64)], low: f64, high: f64) -> Option
 fn fit(samples: &[(f64, f64)], omega: f64) -> Option<(f64, f64)> {
     let (first, last) = (samples.first()?.0, samples.last()?.0);
     let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-    let mut normal = SMatrix::<f64, TERMS, TERMS>::zeros();
-    let mut projection = SVector::<f64, TERMS>::zeros();
+    // (Plain arrays, as this crate is not optimised: matrices take most of the time of the whole evaluation.)
+    let mut normal = [[0.0; TERMS]; TERMS];
+    let mut projection = [0.0; TERMS];
     let mut squares = 0.0;
     for &(t, value) in samples {
         let tau = (t - middle) / half;
         let (sin, cos) = (omega * t).sin_cos();
-        let basis = SVector::from([1.0, tau, tau * tau, tau * tau * tau, cos, sin]);
-        normal += basis * basis.transpose();
-        projection += value * basis;
+        let basis = [1.0, tau, tau * tau, tau * tau * tau, cos, sin];
+        for (i, &factor) in basis.iter().enumerate() {
+            for (sum, &other) in normal[i].iter_mut().zip(&basis) {
+                *sum += factor * other;
+            }
+            projection[i] += value * factor;
+        }
         squares += value * value;
     }
-    let solution = normal.lu().solve(&projection)?;
+    let projection = Vector6::from(projection);
+    let solution = Matrix6::from(normal).lu().solve(&projection)?;
     let (cos, sin) = (solution[TERMS - 2], solution[TERMS - 1]);
     Some((squares - solution.dot(&projection), cos.hypot(sin)))
 }
