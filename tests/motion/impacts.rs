@@ -47,6 +47,20 @@ ukcore::multibody! {
     }
 }
 
+ukcore::multibody! {
+    /// Balls on threads beside each other, with Hertz's contacts between them.
+    Cradle {
+        const N: usize = 5;
+        params { m = 0.1, k = 1e6, l = 0.3, g = 9.81 }
+        coords { x[N] }
+        mass { x: m }
+        potential {
+            for i in 0..N { 0.5 * m * g / l * sq(x[i]) }
+            for i in 0..N - 1 { 0.4 * k * max(0, x[i] - x[i + 1]).powf(2.5) }
+        }
+    }
+}
+
 fn run<M: Mechanism>(
     model: M,
     method: Method,
@@ -152,5 +166,30 @@ fn what_a_jump_excites_is_still_stepped_over() {
         );
         let work = run.work();
         assert!(work.steps + work.rejected < 500, "{tolerance}: {work:?}");
+    }
+}
+
+/// In the first contact the displacements grow with powers of time, from 4.5 on, each with a higher one than that of the ball before.
+#[test]
+fn balls_that_touch_each_other_hand_an_impact_on() {
+    let lifted = [-0.05, 0.0, 0.0, 0.0, 0.0];
+    let met = |method, tolerance| run(Cradle::default(), method, tolerance, &lifted, 0.4);
+    let fine = met(Method::Dop853, 1e-12);
+    let reference = fine.last().expect("an end").q;
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for tolerance in [1e-5, 1e-6, 1e-7, 1e-9, 1e-11] {
+            let run = met(method, tolerance);
+            let off = run.last().expect("an end").q.iter().zip(reference);
+            let off = off.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+            assert!(
+                off < 10.0 * tolerance,
+                "{method}, {tolerance:e}: off by {off:e}"
+            );
+            assert!(
+                run.work().steps < 1500,
+                "{method}, {tolerance:e}: {:?}",
+                run.work()
+            );
+        }
     }
 }

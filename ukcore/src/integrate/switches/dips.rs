@@ -124,7 +124,7 @@ impl Switches {
         *known_at = time(1.0);
         let outside = |k: usize| self.inside(k, known[k]) < 0.0 && !self.targets.contains(&k);
         self.doubt |= (0..count).any(outside);
-        let mut rough = self.turns_early(&mut look, values);
+        let mut rough = self.turns_early(&looks[..count], &mut look, values);
         for k in 0..count {
             if self.branches[k] == Branch::Followed || self.targets.contains(&k) {
                 continue;
@@ -144,17 +144,28 @@ impl Switches {
         }
     }
 
-    /// Whether what is followed changes its sign in the first half of a step, as `look` has it. It does so once, and not long before the
-    /// end: else there is more to it than the estimate of the error, made at some places, can tell.
-    fn turns_early(&self, mut look: impl FnMut(f64, &mut [f64]), values: &mut [f64]) -> bool {
+    /// Whether what is followed, and has values `from` at the start of a step, changes its sign in the first half of it, as `look` has it.
+    /// It does so once, and not long before the end: else there is more to it than the estimate of the error, made at some places, can
+    /// tell. What leaves its zero at no rate, by a high power as a contact makes it, changes its sign on the cubic alone.
+    fn turns_early(
+        &self,
+        from: &[f64],
+        mut look: impl FnMut(f64, &mut [f64]),
+        values: &mut [f64],
+    ) -> bool {
         if !self.branches.contains(&Branch::Followed) {
             return false;
         }
-        look(NEAR, values);
-        let soon = values.to_vec();
-        look(0.5, values);
-        let changes = |k: usize| soon[k] * values[k] < 0.0;
-        (0..soon.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
+        let [soon, later, half] = [NEAR, 2.0 * NEAR, 0.5].map(|place| {
+            look(place, values);
+            values.to_vec()
+        });
+        let early = |k: usize| {
+            let [soon, later] = [&soon, &later].map(|values| values[k] - from[k]);
+            from[k] * half[k] < 0.0 || later.abs() < 3.0 * soon.abs()
+        };
+        let changes = |k: usize| soon[k] * half[k] < 0.0 && early(k);
+        (0..half.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
     }
 }
 
