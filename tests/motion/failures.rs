@@ -140,6 +140,30 @@ fn friction_that_brings_to_rest_is_named_with_the_remedy() {
 }
 
 ukcore::multibody! {
+    /// A point that climbs to either side, as fast as it goes there.
+    pub Climbing {
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        potential { y }
+        nonholonomic { climb: dot(y) = 0.5 * abs(dot(x)) }
+    }
+}
+
+#[test]
+fn a_constraint_that_switches_is_not_told_as_friction() {
+    // ẍ = −0.4 while it climbs; then nothing lets it fall.
+    let start = at(&[0.0; 2], &[1.0, 0.5]);
+    let failure = Simulation::new(Climbing::default()).start(start);
+    let failure = failure.until(10.0).expect_err("rest");
+    let (t, error) = cause(&failure.error);
+    assert!((t - 2.5).abs() < 1e-9, "{t}");
+    let told = error.to_string();
+    let whole = told.contains("in the constraint `climb`")
+        && told.contains("how the motion goes on where a constraint switches");
+    assert!(whole && !told.contains("friction"), "{told}");
+}
+
+ukcore::multibody! {
     /// A point that is drawn to the origin or driven away from it, beside a swing that goes on whatever the point does.
     pub Singular {
         params { pull = 0.0, push = 0.0 }

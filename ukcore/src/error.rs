@@ -185,11 +185,16 @@ pub enum Error {
     /// Steps became tiny about a place where sign, abs, min or max switch or the direction v/|v| of a vector turns, as where dry friction
     /// brings a body to rest.
     #[error(
-        "{} a switch of sign, abs, min, max or v/|v| in the {}{}; dry friction that brings a body to rest is not found to stick: end the \
-         run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v), sqrt(sq(v) + sq(1e-3)) for |v|",
+        "{} a switch of sign, abs, min, max or v/|v| in the {}{}; {} by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for \
+         sign(v), sqrt(sq(v) + sq(1e-3)) for |v|",
         if *step == 0.0 { "both branches of".to_owned() } else { format!("steps fell to {step:.1e} about") },
         terms.join(", "),
-        if *step == 0.0 { " drive the motion back onto it" } else { "" }
+        if *step == 0.0 { " drive the motion back onto it" } else { "" },
+        if terms.iter().all(|term| term.starts_with("constraint ")) {
+            "nothing tells how the motion goes on where a constraint switches: end the run before"
+        } else {
+            "dry friction that brings a body to rest is not found to stick: end the run at rest"
+        }
     )]
     Chattering {
         /// Size of the last steps; 0 where both branches were found to drive the motion back onto the switch.
