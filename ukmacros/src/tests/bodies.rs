@@ -354,7 +354,8 @@ cases! {
     gravity_of_a_number: "bodies { planar a { mass: 1, inertia: 1 } } gravity { «-9.81» }" => "expected a vector of 2 or 3, found a number";
     mass_that_changes: "bodies { planar a { mass: 1 + «t», inertia: 1 } }" => "what a body consists of does not change";
     negative_inertia: "params { j = -1.0 } bodies { planar a { mass: 1, inertia: «j» } }" => "the inertia of a body must not be negative";
-    massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive; it is 0 where the inertia is `[0, 0, 0]`, too";
+    massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive: with its centre on the axis of a fixed hinge it is not felt; it is 0 where the inertia is `[0, 0, 0]`, too";
+    inertia_about_a_hinge_alone: "params { j = 0.1 } bodies { spatial a { mass: «0», inertia: «[0, 0, j]» } } tree { h: hinge(ground.at([0, 0, 0]), a.at([0, 0, 0]), [0, 0, 1]) }" => "an inertia j about a hinge `h` alone is the term `0.5 * j * sq(dot(h.angle))` of `kinetic` then", "those about the others are j/2 at least, as of a disc: a body that turns about a hinge alone does not feel them";
     massless_link_in_space: "bodies { spatial a { mass: «0», inertia: [0, 0, 0] } } tree { j: ball(ground.at([0, 0, 0]), a.at([1, 0, 0])) }" => "the mass of a spatial body must be positive";
     body_with_itself: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: «rod»(a.at([0, 0]), a.at([1, 0]), 1) }" => "`rod` joins two bodies; both of these are `a`";
     place_by_its_numbers: "bodies { planar a { mass: 1, inertia: 1 } } output { o = a.«at»(0, 0) }" => "`at` takes one vector: `body.at([1, 0])`";

@@ -221,8 +221,9 @@ impl<'m> Lowering<'m> {
             self.error(
                 e.loc,
                 format!(
-                    "the {what} of a spatial body must be positive; it is 0 where the inertia is `[0, 0, 0]`, too, and the body hangs on a \
-                     joint under `tree` that has angles for coordinates"
+                    "the {what} of a spatial body must be positive: with its centre on the axis of a fixed hinge it is not felt; it is 0 \
+                     where the inertia is `[0, 0, 0]`, too, and the body hangs on a joint under `tree` that has angles for coordinates: an \
+                     inertia j about a hinge `h` alone is the term `0.5 * j * sq(dot(h.angle))` of `kinetic` then"
                 ),
             );
         }
