@@ -432,6 +432,7 @@ cases! {
     kinetic_without_velocity: "coords { x } «kinetic» { x }" => "contains no square of a velocity";
     negative_mass: "coords { x } mass { «x»: -1.0 }" => "a mass must not be negative";
     pair_in_both_orders: "coords { x, y } mass { x: 1.0, y: 1.0, (x, y): 0.5, («y, x»): 0.5 }" => "`(y, x)` is the entry that stands as `(x, y)` already, which sets both M[y, x] and M[x, y]; write it once";
+    pairs_of_a_ring_of_two: "const N: usize = 2; coords { x[N] } let next = |i| i + 1 - N * ((i + 1) / N); mass { x: 1.0, for i in 0..N { («x[i], x[next(i)]»): 0.1 } }" => "`(x[1], x[0])` is the entry that stands as `(x[0], x[1])` already, which sets both M[x[1], x[0]] and M[x[0], x[1]]; write it once, twice as large where two couplings are meant, as those of a ring of two";
     pairs_of_loops: "coords { x[3] } mass { x: 1.0, for i in 1..3 { (x[i - 1], x[i]): 0.5 } for i in 1..3 { («x[i], x[i - 1]»): 0.5 } }" => "`(x[1], x[0])` is the entry that stands as `(x[0], x[1])` already";
     diagonal_as_a_pair: "coords { x } mass { (x, «x»): 1.0 }" => "a diagonal entry of M is written `x: …`";
     comma_between_sections: "coords { x }«,» mass { x: 1 }" => "nothing stands between sections; remove this";

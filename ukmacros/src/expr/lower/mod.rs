@@ -402,7 +402,7 @@ impl<'m> Lowering<'m> {
                     // A symmetric M written in full: its sum would be twice what is meant.
                     let [x, y] = [row, column].map(|i| &self.model.coord_elements[i].name);
                     let message = format!(
-                        "`({x}, {y})` is the entry that stands as `({y}, {x})` already, which sets both M[{x}, {y}] and M[{y}, {x}]; write it once"
+                        "`({x}, {y})` is the entry that stands as `({y}, {x})` already, which sets both M[{x}, {y}] and M[{y}, {x}]; write it once, twice as large where two couplings are meant, as those of a ring of two"
                     );
                     let end = entry.other.as_ref().map_or(entry.key.loc, |other| other.loc);
                     self.diag.error(entry.key.loc.to(end), message);
