@@ -139,8 +139,16 @@ impl<'m> Lowering<'m> {
         };
         let open = [Place::Output, Place::Integral, Place::Nonideal].contains(&env.place);
         if !self.constrained || !(open || self.applying()) {
+            let remedy = match env.place {
+                Place::Let if !self.applying() => format!(
+                    "; make this a function of no argument, `let n = || {name}(…);`, and write `n()` there"
+                ),
+                _ => format!(
+                    ", and in functions used there, of no argument as `let n = || {name}(…);` is"
+                ),
+            };
             let message = format!(
-                "reactions follow from all other equations: `{name}` stands under `output`, `integral`, `draw` and `nonideal`, and in functions used there, of no argument as `let n = || {name}(…);` is"
+                "reactions follow from all other equations: `{name}` stands under `output`, `integral`, `draw` and `nonideal`{remedy}"
             );
             return self.error_once(name, message);
         }
