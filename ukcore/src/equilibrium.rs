@@ -318,12 +318,14 @@ impl Search {
             // Towards a place without bottom forces grow, and where they only fade what is left of them is all there is.
             let still = full.amax() <= NOWHERE * self.size && here.force.norm() <= first;
             if here.is_balanced() || still && ways.loose <= BALANCED * here.parts {
-                if let Some(nearer) = self.nearer(&here, &full) {
+                let free = self.held.is_empty();
+                let linear = free.then(|| Linear::at(&self.mech, &here.state));
+                if let Some(nearer) = self.nearer(&here, &full, linear.as_ref()) {
                     here = nearer;
                     continue;
                 }
                 self.is_smooth(&here, &full, &stiffness, (first, *firm))?;
-                let stability = self.stability(&here, &stiffness)?;
+                let stability = self.stability(&here, &stiffness, linear.transpose()?)?;
                 return Ok(Ok(Equilibrium {
                     state: here.state,
                     stability,
@@ -423,13 +425,15 @@ impl Search {
 
     /// The place where `step` leads, if forces fade towards it that [`modes`](crate::modes()) would not yet take for those of rest: where a
     /// stiffness vanishes each step leaves a part of the way.
-    fn nearer(&mut self, here: &Place, step: &DVector<f64>) -> Option<Place> {
-        if !self.held.is_empty() {
-            return None;
-        }
-        let linear = Linear::at(&self.mech, &here.state);
-        let rests = linear.and_then(|linear| steady(&self.mech, &here.state, &linear));
-        if rests.is_ok() {
+    fn nearer(
+        &mut self,
+        here: &Place,
+        step: &DVector<f64>,
+        linear: Option<&Result<Linear, Error>>,
+    ) -> Option<Place> {
+        if let Ok(linear) = linear?
+            && steady(&self.mech, &here.state, linear).is_ok()
+        {
             return None;
         }
         let there = self.moved(here, step).ok()?;
@@ -569,9 +573,13 @@ impl Search {
     }
 
     /// What the stiffness tells, and where nothing is held the modes.
-    fn stability(&mut self, here: &Place, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
-        if self.held.is_empty() {
-            let linear = Linear::at(&self.mech, &here.state)?;
+    fn stability(
+        &mut self,
+        here: &Place,
+        stiffness: &DMatrix<f64>,
+        linear: Option<Linear>,
+    ) -> Result<Stability, Error> {
+        if let Some(linear) = linear {
             let (modes, grows) = linear_motion(&self.mech, &here.state, &linear)?;
             if grows || modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);

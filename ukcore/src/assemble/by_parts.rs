@@ -414,7 +414,7 @@ impl<'a> ByParts<'a> {
     fn search(&mut self, part: &Part, mut x: Vec<f64>) -> Option<Vec<f64>> {
         self.search.begun += 1;
         let manifold = &mut self.search.manifold;
-        let (near, _) = manifold.search_part(self.at, part, self.guess, &mut x);
+        let (near, ..) = manifold.search_part(self.at, part, self.guess, &mut x);
         near.then_some(x)
     }
 

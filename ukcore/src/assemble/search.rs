@@ -64,9 +64,15 @@ impl Search {
         held: &Held,
         q: Vec<f64>,
     ) -> Result<State, Error> {
+        let v = held.rates(&q, &guess.v);
+        let mut residual = vec![0.0; mech.spec().m()];
+        mech.residual_rate(guess.t, &q, &v, &mut residual);
+        if residual.iter().all(|r| *r == 0.0) {
+            // As at rest there is nothing to search for.
+            return Ok(State { t: guess.t, q, v });
+        }
         let mut search = Search::new(mech, guess, &held.velocities);
         let at = At::new(mech, Level::Velocity, guess.t, &q);
-        let v = held.rates(&q, &guess.v);
         let told = |j: &usize| !held.untold_rates.contains(j);
         let told: Vec<usize> = search.free.iter().copied().filter(told).collect();
         let mut times = 1;
@@ -222,7 +228,7 @@ impl Search {
             return Ok(x);
         }
         let kept = self.settled(at, guess, guess);
-        let extents = self.manifold.extents(at, guess);
+        let mut extents = None;
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
@@ -234,7 +240,10 @@ impl Search {
             }
             for share in shakes {
                 let mut place = guess.to_vec();
-                shake(&mut place, &self.free, |j| share * extents[j]);
+                if *share > 0.0 {
+                    let extents = extents.get_or_insert_with(|| self.manifold.extents(at, guess));
+                    shake(&mut place, &self.free, |j| share * extents[j]);
+                }
                 let Err(cost) = self.manifold.search(at, guess, &mut place) else {
                     let settled = self.settled(at, guess, &place);
                     let all = [Some(place), settled, kept].into_iter().flatten();

@@ -253,8 +253,8 @@ impl Manifold {
         let held = &self.newton.acceptance.held;
         let free = (0..x.len()).filter(|j| !held.contains(j)).collect();
         let whole = Part::whole(at.rows(), free);
-        let (near, cost) = self.search_part(at, &whole, guess, x);
-        let met = self.meets(at, x, guess);
+        let (near, met, cost) = self.search_part(at, &whole, guess, x);
+        let met = met || self.meets(at, x, guess);
         let projected = (met || near) && self.project(at, x).is_ok();
         match met || projected {
             true => Ok(()),
@@ -263,14 +263,15 @@ impl Manifold {
     }
 
     /// Moves the unknowns of `part` in `x`, which is at or near `guess`, to where its rows are met as nearly as projection needs. Returns
-    /// whether there is such a place, and the sum of the squares of the scaled residuals where it is least.
+    /// whether there is such a place, whether they are met there but for rounding, as far as that has been measured, and the sum of the
+    /// squares of the scaled residuals where it is least.
     pub(crate) fn search_part(
         &mut self,
         at: &At<'_, f64>,
         part: &Part,
         guess: &[f64],
         x: &mut [f64],
-    ) -> (bool, f64) {
+    ) -> (bool, bool, f64) {
         let size = self.newton.acceptance.measured(guess);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
@@ -279,7 +280,7 @@ impl Manifold {
         let whole = part.rows.len() == at.rows();
         // Points that coincide, and leave rows without a direction, are those of the guess.
         let drawn = part.unknowns.iter().all(|j| x[*j] == guess[*j]);
-        self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
+        let (met, _) = self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             let trial = best
                 .as_ref()
                 .map_or(0.0, |best| best.cost(part, &newton.residual));
@@ -331,6 +332,6 @@ impl Manifold {
             self.meets(at, x, guess);
             self.newton.is_near(part)
         });
-        (near, cost)
+        (near, met > 0.5, cost)
     }
 }
