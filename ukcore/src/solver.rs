@@ -235,6 +235,7 @@ impl Solver {
         }
         if self.refined(at, out) {
             self.full = self.m;
+            self.work.refined += 1;
             return Ok(());
         }
         // Once for a solution, whatever else is left on the way; not for one that confirms what the straight line found.

@@ -56,6 +56,8 @@ pub struct Work {
     pub projection_iterations: usize,
     /// Evaluations that had to leave the formula first tried for a more general one.
     pub fallbacks: usize,
+    /// Evaluations whose digits, lost between light and heavy masses on the straight line, refinement gave back.
+    pub refined: usize,
 }
 
 /// Why a run ended.

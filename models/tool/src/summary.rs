@@ -115,6 +115,7 @@ impl Summary<'_> {
                 "projections": work.projections,
                 "projection_iterations": work.projection_iterations,
                 "fallbacks": work.fallbacks,
+                "refined": work.refined,
             },
             "seconds": self.seconds,
         })
@@ -146,9 +147,13 @@ impl Summary<'_> {
                 count(factorisations, "factorisation")
             ),
         };
+        let refined = match w.refined {
+            0 => String::new(),
+            refined => format!(", {refined} refined"),
+        };
         writeln!(
             out,
-            "Work: {} ({} rejected, {} onto switches), {}{implicit}, {} ({}), {}; {:.3} s",
+            "Work: {} ({} rejected, {} onto switches), {}{implicit}, {} ({}), {}{refined}; {:.3} s",
             count(w.steps, "step"),
             w.rejected,
             w.switches,

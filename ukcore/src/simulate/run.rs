@@ -93,7 +93,7 @@ impl Run<'_> {
         let done = self.solver.work();
         let work = &mut self.recorder.trajectory.work;
         work.evaluations = done.evaluations;
-        work.fallbacks = done.fallbacks;
+        (work.fallbacks, work.refined) = (done.fallbacks, done.refined);
         self.recorder.finish()
     }
 }

@@ -99,6 +99,8 @@ pub struct SolverWork {
     /// time and is singular at run time, redundant constraints under [`Formula::Kkt`], or pivots of the straight line that refinement could
     /// not save.
     pub fallbacks: usize,
+    /// Solutions by the straight line whose digits refinement gave back.
+    pub refined: usize,
 }
 
 /// What is known of the motion and its forces at one state.

@@ -146,7 +146,7 @@ impl Running {
         work.steps = self.course.steps;
         work.rejected = self.course.rejected();
         work.evaluations = lane.evaluations;
-        work.fallbacks = lane.fallbacks;
+        (work.fallbacks, work.refined) = (lane.fallbacks, lane.refined);
         Member::of(&trajectory, &self.start)
     }
 }
