@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::scalar::tape::player;
-use crate::scalar::{Scalar, functions, operators};
+use crate::scalar::{Dual, Scalar, functions, operators};
 
 /// All numbers between two: a result holds every value that the function takes where its arguments are in theirs (Moore 1966, Interval
 /// Analysis). Bounds are rounded to nearest rather than outward, so they hold to rounding. [`ALL`] where a function has no value, or jumps.
@@ -12,6 +12,9 @@ pub(crate) struct Interval {
     low: f64,
     high: f64,
 }
+
+/// A value and its derivative along a way, while the place on it varies.
+pub(crate) type Along = Dual<Interval>;
 
 /// Every number.
 const ALL: Interval = Interval {
@@ -31,12 +34,23 @@ impl Interval {
     }
 
     /// The numbers between two, which may be infinite; all, where one is no number.
-    fn between(low: f64, high: f64) -> Self {
+    pub(crate) fn between(low: f64, high: f64) -> Self {
         if low <= high {
             Interval { low, high }
         } else {
             ALL
         }
+    }
+
+    /// The numbers from the least to the largest of some; all, where one is no number.
+    pub(crate) fn over<const N: usize>(numbers: [f64; N]) -> Self {
+        let exact = numbers.map(Interval::exact);
+        exact.into_iter().reduce(Interval::hull).unwrap_or(ALL)
+    }
+
+    /// The least of its numbers, and the largest.
+    pub(crate) fn ends(self) -> [f64; 2] {
+        [self.low, self.high]
     }
 
     /// Half of its length.

@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 mod prepared;
 
 pub use prepared::Prepared;
-pub(crate) use prepared::{Dynamics, Equations};
+pub(crate) use prepared::{Dynamics, Equations, Switches};
 
 use crate::spec::{Guess, OutputSpec, Spec};
 

@@ -314,6 +314,7 @@ impl Simulation {
             solver,
             located,
             sloped: has_switches.then(|| self.mechanism.sloped()),
+            along: has_switches.then(|| self.mechanism.along()),
             columns: None,
             energy,
             recorder,

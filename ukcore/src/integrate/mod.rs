@@ -39,6 +39,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::Error;
+use crate::interval::Along;
 use crate::mechanism::Branch;
 use crate::numbers::full;
 use crate::spec::SwitchSpec;
@@ -217,6 +218,8 @@ pub(crate) trait Problem {
     }
     /// The g of all switches at a state.
     fn switching(&mut self, _at: Sample<'_>, _values: &mut [f64]) {}
+    /// The g of all switches and their derivatives along a way, while the place on it varies.
+    fn switching_along(&mut self, _t: Along, _q: &[Along], _v: &[Along], _values: &mut [Along]) {}
     /// The derivatives of the g of all switches by time at a state with these accelerations.
     fn switching_rate(&mut self, _at: Sample<'_>, _acceleration: &[f64], _values: &mut [f64]) {}
     /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.

@@ -9,7 +9,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use crate::error::Error;
-use crate::interval::Interval;
+use crate::interval::{Along, Interval};
 use crate::mechanism::{Branch, Energy, Mechanism, Terms};
 use crate::plan::Plan;
 use crate::rounding::Rounded;
@@ -61,8 +61,16 @@ macro_rules! table {
 }
 
 table! {
+    /// What decides branches.
+    Switches: Code {
+        /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
+        fn switching(t: S, q: &[S], v: &[S], switching: &mut [S]);
+    }
+}
+
+table! {
     /// The equations of motion and the constraints.
-    Equations: Code {
+    Equations: Switches {
         /// φ of the h holonomic constraints at (t, q); see [`Mechanism::residual`].
         fn residual(t: S, q: &[S], phi: &mut [S]);
         /// φ̇ of the holonomic and φ of the nonholonomic constraints at (t, q, q̇), m numbers; see [`Mechanism::residual_rate`].
@@ -75,8 +83,6 @@ table! {
 table! {
     /// What else derivatives are taken of.
     Dynamics: Equations {
-        /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
-        fn switching(t: S, q: &[S], v: &[S], switching: &mut [S]);
         /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver)
         /// wraps it with the rank-revealing solve.
         fn acceleration(t: S, q: &[S], v: &[S], out: &mut [S]) -> S;
@@ -124,6 +130,8 @@ pub struct Face {
     rounded: &'static dyn Equations<Rounded>,
     /// The functions in numbers that may vary.
     varied: &'static dyn Equations<Interval>,
+    /// The functions in numbers that vary along a way.
+    along: &'static dyn Switches<Along>,
 }
 
 /// The functions of `M`.
@@ -139,6 +147,7 @@ impl<M: Mechanism> Of<M> {
         sloped: &Of::<M>(PhantomData),
         rounded: &Of::<M>(PhantomData),
         varied: &Of::<M>(PhantomData),
+        along: &Of::<M>(PhantomData),
     };
 }
 
@@ -179,7 +188,7 @@ impl<S: Scalar> Prepared<S> {
     }
 }
 
-impl<S: Scalar, C: ?Sized + Equations<S>> Prepared<S, C> {
+impl<S: Scalar, C: ?Sized + Code<S>> Prepared<S, C> {
     fn with(code: &'static C, spec: &'static Spec, given: Vec<S>) -> Self {
         assert_eq!(given.len(), spec.params.len(), "one value a parameter");
         let mut prepared = Prepared {
@@ -339,7 +348,12 @@ impl Prepared {
         self.lift(self.code.face().varied, Interval::exact)
     }
 
-    fn lift<T: Scalar, C: ?Sized + Equations<T>>(
+    /// The switching functions in numbers that vary along a way, with the parameters, which do not.
+    pub(crate) fn along(&self) -> Prepared<Along, dyn Switches<Along>> {
+        self.lift(self.code.face().along, Along::from_f64)
+    }
+
+    fn lift<T: Scalar, C: ?Sized + Code<T>>(
         &self,
         code: &'static C,
         number: fn(f64) -> T,

@@ -43,6 +43,7 @@ pub trait Slope<S>:
 }
 
 impl<S: Scalar> Slope<S> for S {
+    const READ: bool = S::TAPED;
     fn zero() -> Self {
         S::from_f64(0.0)
     }

@@ -11,8 +11,9 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Method, Next, Outcome, Problem, Purpose, Settings, Singular, Step};
+use crate::interval::Along;
 use crate::linearise::Columns;
-use crate::mechanism::{Branch, Dynamics, Prepared};
+use crate::mechanism::{Branch, Dynamics, Prepared, Switches};
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{CLEAR, RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
@@ -27,6 +28,8 @@ pub(super) struct Run<'s> {
     pub(super) located: bool,
     /// The mechanism for the derivatives of switching functions, if there are some.
     pub(super) sloped: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
+    /// The mechanism for what switching functions do within a step, if there are some.
+    pub(super) along: Option<Prepared<Along, dyn Switches<Along>>>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
     /// Watches the energy where a method has a fixed step.
@@ -270,6 +273,12 @@ impl Problem for Run<'_> {
     fn switching(&mut self, at: Sample<'_>, values: &mut [f64]) {
         let mechanism = self.solver.mechanism();
         mechanism.switching(at.t, at.q, at.v, values);
+    }
+
+    fn switching_along(&mut self, t: Along, q: &[Along], v: &[Along], values: &mut [Along]) {
+        if let Some(mechanism) = &self.along {
+            mechanism.switching(t, q, v, values);
+        }
     }
 
     fn switching_rate(&mut self, at: Sample<'_>, acceleration: &[f64], values: &mut [f64]) {

@@ -10,9 +10,6 @@ use crate::integrate::{Next, PROJECTION_LIMIT, Problem};
 use crate::mechanism::Branch;
 use crate::scan::axpy;
 
-/// A step with less than this share of the error granted may be as long as it is for lack of any force: switches are looked at all along.
-const FREE: f64 = 1e-4;
-
 /// Constraints that ask for other velocities beside the zero of a switch than in the branch before, and by no more than this share of that
 /// at the zero, and than any step may be projected by, do so for being beside it.
 const CONTINUOUS: f64 = 0.1;
@@ -64,10 +61,8 @@ impl Driver<'_> {
         if from >= to {
             return Ok(false);
         }
-        // A method without an estimate has no error that would tell.
-        let free = error < FREE && self.scheme.error().is_some();
         let (ends, problem) = (self.scheme.states(), &mut *equations.problem);
-        match (equations.switches).dips(problem, time, trial.h, ends, free) {
+        match (equations.switches).dips(problem, time, trial.h, ends) {
             _ if equations.switches.doubt || from > 0.0 || to < 1.0 => {}
             Seen::Whole => return Ok(false),
             Seen::Dips => {}

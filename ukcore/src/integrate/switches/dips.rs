@@ -1,67 +1,59 @@
-//! Switching functions that leave their branch and come back within a step, between all that it evaluates: a body that meets a stiff
-//! stop for a moment on a long way without forces, the tip of an oscillation just beyond a bumper.
-
-use std::convert::Infallible;
+//! Where switching functions first leave their branches within a step, whatever shows of it at what the step evaluates: a body that meets a
+//! stiff stop for a moment on a long way without forces, the tip of an oscillation just beyond a bumper, pulses of a force much shorter
+//! than its steps.
+//!
+//! The state is taken to move along the cubic through the ends of the step. Between two places on it a function stays on its side of zero
+//! where the interval of its values does, or where it does at both and its derivative has one sign; else the way between them is halved
+//! (Moore 1966, Interval Analysis; Snyder 1992, Interval analysis for computer graphics).
 
 use super::Switches;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Problem, between};
+use crate::interval::{Along, Interval};
 use crate::mechanism::Branch;
-use crate::zero::below;
+use crate::scalar::{Dual, Scalar};
 
-/// Part of a step over which the rates of functions are taken at its ends.
-const END: f64 = 1.0 / 64.0;
-
-/// Parts of a step at which functions are looked at, to have their rates at its ends.
-const ENDS: [f64; 4] = [0.0, END, 1.0 - END, 1.0];
-
-/// A step without forces is looked at in so many parts, and as near to its ends as that.
-const LOOKS: usize = 32;
+/// Part of a step up to which what is followed leaves its zero.
 const NEAR: f64 = 1e-3;
-const ALONG: [f64; LOOKS + 3] = {
-    let mut along = [NEAR; LOOKS + 3];
-    along[0] = 0.0;
-    let mut k = 1;
-    while k < LOOKS {
-        along[k + 1] = k as f64 / LOOKS as f64;
-        k += 1;
-    }
-    (along[LOOKS + 1], along[LOOKS + 2]) = (1.0 - NEAR, 1.0);
-    along
-};
 
-/// Extrema between looks up to which these show where they are; a function that gets within this share of its range to zero and has more
-/// is looked at in shorter steps.
-const EXTREMA: usize = LOOKS / 4;
-const WITHIN: f64 = 0.25;
-
-/// The cubic through the ends of a step is off by less than this share of its range, where the step is not too long for its method.
-const SHAPE: f64 = 0.1;
-
-/// What a function goes beyond its zero counts from this share of its range within the step: less is rounding.
+/// What a function goes beyond its zero counts from this share of its values at the places looked at: less is rounding.
 const DEPTH: f64 = 1e-10;
+
+/// Part of a step that is not halved, and how many of these may be undecided: a function that all but touches its zero there, or has no
+/// value.
+const LEAST: f64 = 1e-9;
+const UNDECIDED: usize = 4;
+
+/// Parts of a step up to which a function is looked for; one that has not been told by then is looked at in shorter steps.
+const LOOKS: usize = 1000;
 
 /// What dips are searched in.
 #[derive(Default)]
 pub(super) struct Buffers {
     state: Vec<f64>,
     values: Vec<f64>,
-    /// Values of all functions, place after place.
-    looks: Vec<f64>,
+    /// The values of all functions at the start of the step.
+    from: Vec<f64>,
     /// The values of all functions at the end of the last step that was looked at, and its time.
     known: Vec<f64>,
     known_at: f64,
+    /// Time and state along a part of the step, and the functions there.
+    along: Vec<Along>,
+    within: Vec<Along>,
 }
 
 impl Buffers {
     /// Buffers for `count` functions of states of length `n`.
     pub(super) fn new(count: usize, n: usize) -> Self {
+        let nothing = Along::from_f64(0.0);
         Buffers {
             state: vec![0.0; n],
             values: vec![0.0; count],
-            looks: Vec::new(),
+            from: vec![0.0; count],
             known: vec![0.0; count],
             known_at: f64::NAN,
+            along: vec![nothing; n],
+            within: vec![nothing; count],
         }
     }
 }
@@ -77,70 +69,186 @@ pub(in crate::integrate) enum Seen {
     Rough,
 }
 
+/// What is seen of one function.
+enum Sight {
+    /// It stays in its branch.
+    Stays,
+    /// It leaves it once before this part of the step, where it is outside.
+    Leaves(f64),
+    /// It changes too often to tell.
+    Rough,
+}
+
+/// The way of a step: its size, its time by the part of it, and the states at its ends.
+struct Way<'a, T> {
+    h: f64,
+    time: T,
+    ends: [[&'a [f64]; 2]; 2],
+}
+
+impl<T: Fn(f64) -> f64> Way<'_, T> {
+    /// The functions of `problem` at a place.
+    fn look(&self, problem: &mut dyn Problem, place: f64, state: &mut [f64], values: &mut [f64]) {
+        let n = state.len() / 2;
+        let (q, v) = state.split_at_mut(n);
+        between(place, self.h, self.ends, [q, v]);
+        problem.switching(Sample::of((self.time)(place), state), values);
+    }
+
+    /// The functions of `problem` between two places, and their derivatives by the place.
+    fn look_along(
+        &self,
+        problem: &mut dyn Problem,
+        [a, b]: [f64; 2],
+        state: &mut [Along],
+        values: &mut [Along],
+    ) {
+        let (h, [[q0, v0], [q1, v1]]) = (self.h, self.ends);
+        let (q, v) = state.split_at_mut(q0.len());
+        for i in 0..q0.len() {
+            // The derivative of q by the place, in the form of Bernstein: between two places it lies among its values there and a third.
+            let change = q1[i] - q0[i];
+            let [d0, d1, d2] = [v0[i] * h, 3.0 * change - (v0[i] + v1[i]) * h, v1[i] * h];
+            let third = |a: f64, b: f64| {
+                d0 * (1.0 - a) * (1.0 - b) + d1 * (a * (1.0 - b) + b * (1.0 - a)) + d2 * a * b
+            };
+            let rates = [third(a, a), third(a, b), third(b, b)];
+            let bend = |at: f64| 2.0 * ((d1 - d0) * (1.0 - at) + (d2 - d1) * at);
+            let place = |at: f64| {
+                let rest = 1.0 - at;
+                q0[i] + at * change + at * rest * ((d0 - change) * rest + (change - d2) * at)
+            };
+            let (from, to) = (place(a), place(b));
+            let part = (b - a) / 3.0;
+            let values = [from, from + part * rates[0], to - part * rates[2], to];
+            q[i] = Dual::new(Interval::over(values), Interval::over(rates));
+            let over_h = |[low, high]: [f64; 2]| Interval::over([low / h, high / h]);
+            v[i] = Dual::new(over_h(q[i].eps.ends()), over_h([bend(a), bend(b)]));
+        }
+        let times = Interval::over([a, b].map(|place| (self.time)(place)));
+        problem.switching_along(Dual::new(times, Interval::exact(h)), q, v, values);
+    }
+}
+
 impl Switches {
     /// Whether functions are outside of their branches at the end of a step of size `h` between two states, which makes it doubtful, or may
-    /// leave them within it, though they are within them at both; if it is `free` of forces, from close up. `time` is that of a part of the
-    /// step.
+    /// leave them within it, though they are within them at both. `time` is that of a part of the step.
     pub(in crate::integrate) fn dips(
         &mut self,
         problem: &mut dyn Problem,
         time: impl Fn(f64) -> f64,
         h: f64,
-        [old, new]: [&[f64]; 2],
-        free: bool,
+        ends: [&[f64]; 2],
     ) -> Seen {
-        let mut found = std::mem::take(&mut self.dips);
-        found.clear();
-        let count = self.branches.len();
+        self.dips.clear();
         let mut buffers = std::mem::take(&mut self.buffers);
-        let Buffers {
-            state,
-            values,
-            looks,
-            known,
-            known_at,
-        } = &mut buffers;
-        let mut look = |theta: f64, values: &mut [f64]| {
-            if theta == 1.0 {
-                state.copy_from_slice(new);
-            } else {
-                let n = state.len() / 2;
-                let (q, v) = state.split_at_mut(n);
-                between(theta, h, [old, new].map(|y| [&y[..n], &y[n..]]), [q, v]);
-            }
-            problem.switching(Sample::of(time(theta), state), values);
+        let n = ends[0].len() / 2;
+        let way = Way {
+            h,
+            ends: ends.map(|y| [&y[..n], &y[n..]]),
+            time,
         };
-        let places = if free { &ALONG[..] } else { &ENDS[..] };
-        looks.resize(places.len() * count, 0.0);
-        let from = time(0.0);
-        for (place, values) in looks.chunks_exact_mut(count).enumerate() {
-            match place {
-                // The last step has ended here.
-                0 if *known_at == from => values.copy_from_slice(known),
-                _ => look(places[place], values),
+        let (from, to) = ((way.time)(0.0), (way.time)(1.0));
+        match buffers.known_at == from {
+            // The last step has ended here.
+            true => buffers.from.copy_from_slice(&buffers.known),
+            false => problem.switching(Sample::of(from, ends[0]), &mut buffers.from),
+        }
+        problem.switching(Sample::of(to, ends[1]), &mut buffers.known);
+        buffers.known_at = to;
+        let held: Vec<usize> = (0..self.branches.len())
+            .filter(|k| self.branches[*k] != Branch::Followed && !self.targets.contains(k))
+            .collect();
+        let outside = |k: &usize| self.inside(*k, buffers.known[*k]) < 0.0;
+        self.doubt |= held.iter().any(outside);
+        let mut look = |place: f64, values: &mut [f64]| {
+            way.look(problem, place, &mut buffers.state, values);
+        };
+        let mut rough = self.turns_early(&buffers.from, &mut look, &mut buffers.values);
+        if !held.is_empty() {
+            let (along, within) = (&mut buffers.along, &mut buffers.within);
+            way.look_along(problem, [0.0, 1.0], along, within);
+            let first = buffers.within.clone();
+            for k in held {
+                match self.sight(k, &way, problem, &mut buffers, first[k]) {
+                    Sight::Stays => {}
+                    Sight::Leaves(place) => self.dips.push(place),
+                    Sight::Rough => rough = true,
+                }
             }
         }
-        known.copy_from_slice(&looks[looks.len() - count..]);
-        *known_at = time(1.0);
-        let outside = |k: usize| self.inside(k, known[k]) < 0.0 && !self.targets.contains(&k);
-        self.doubt |= (0..count).any(outside);
-        let mut rough = self.turns_early(&looks[..count], &mut look, values);
-        for k in 0..count {
-            if self.branches[k] == Branch::Followed || self.targets.contains(&k) {
-                continue;
-            }
-            let at = |place: usize| self.inside(k, looks[place * count + k]);
-            let value = |theta: f64| {
-                look(theta, values);
-                self.inside(k, values[k])
-            };
-            rough |= search((places, free), at, value, &mut found);
-        }
-        (self.buffers, self.dips) = (buffers, found);
+        self.buffers = buffers;
         match self.dips.is_empty() {
             false => Seen::Dips,
             true if rough => Seen::Rough,
             true => Seen::Whole,
+        }
+    }
+
+    /// What is seen of function k on a way, along the whole of which it and its derivative are within `whole`.
+    fn sight<T: Fn(f64) -> f64>(
+        &self,
+        k: usize,
+        way: &Way<'_, T>,
+        problem: &mut dyn Problem,
+        buffers: &mut Buffers,
+        whole: Along,
+    ) -> Sight {
+        let side = self.branches[k].sign();
+        let [from, to] = [&buffers.from, &buffers.known].map(|values| self.inside(k, values[k]));
+        let mut range = from.abs().max(to.abs());
+        let mut undecided = 0;
+        // Parts of the way with the values at their ends, the first part last: behind the end of the first one the function is outside,
+        // if it is at the end of any.
+        let mut parts = vec![([0.0, 1.0], [from, to])];
+        let mut within = Some(whole);
+        for _ in 0..LOOKS {
+            let Some(([a, b], [at_a, at_b])) = parts.pop() else {
+                return Sight::Stays;
+            };
+            let within = within.take().unwrap_or_else(|| {
+                let (along, within) = (&mut buffers.along, &mut buffers.within);
+                way.look_along(problem, [a, b], along, within);
+                within[k]
+            });
+            let inside = (within.re - Interval::exact(self.levels[k])) * Interval::exact(side);
+            let [[least, _], [falls, rises]] = [inside.ends(), within.eps.ends()];
+            let leaves = at_b < -DEPTH * range;
+            let one_way = falls >= 0.0 || rises <= 0.0;
+            match leaves {
+                true if one_way => return Sight::Leaves(b),
+                false if one_way || least >= -DEPTH * range => continue,
+                _ => {}
+            }
+            if b - a < LEAST {
+                undecided += 1;
+                match leaves {
+                    true => return Sight::Leaves(b),
+                    false if undecided == UNDECIDED => return Sight::Stays,
+                    false => continue,
+                }
+            }
+            let middle = 0.5 * (a + b);
+            way.look(problem, middle, &mut buffers.state, &mut buffers.values);
+            let value = self.inside(k, buffers.values[k]);
+            range = range.max(value.abs());
+            let beyond = -DEPTH * range;
+            if value < beyond {
+                // Behind it nothing matters any more.
+                parts.clear();
+                parts.push(([a, middle], [at_a, value]));
+                continue;
+            }
+            let steepest = falls.abs().max(rises.abs());
+            if !leaves && value - 0.5 * (b - a) * steepest >= beyond {
+                continue;
+            }
+            parts.push(([middle, b], [value, at_b]));
+            parts.push(([a, middle], [at_a, value]));
+        }
+        match undecided {
+            0 => Sight::Rough,
+            _ => Sight::Stays,
         }
     }
 
@@ -167,66 +275,4 @@ impl Switches {
         let changes = |k: usize| soon[k] * half[k] < 0.0 && early(k);
         (0..half.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
     }
-}
-
-/// Adds to those `found` the places where a function, known `at` some `places` of a step that may be without forces, gets below zero.
-/// Whether it is too rough to tell.
-fn search(
-    (places, free): (&[f64], bool),
-    at: impl Fn(usize) -> f64 + Copy,
-    mut value: impl FnMut(f64) -> f64,
-    found: &mut Vec<f64>,
-) -> bool {
-    let range = (0..places.len()).fold(0.0_f64, |most, place| most.max(at(place).abs()));
-    let mut within = |a: f64, b: f64| {
-        let g = |theta: f64| -> Result<f64, Infallible> { Ok(value(theta)) };
-        let Ok(place) = below(g, -DEPTH * range, a, b);
-        found.extend(place);
-    };
-    if !free {
-        if may_dip([0, 1, 2, 3].map(at), range) {
-            within(0.0, 1.0);
-        }
-        return false;
-    }
-    for place in 1..places.len() - 1 {
-        if at(place - 1) > at(place) && at(place) <= at(place + 1) {
-            within(places[place - 1], places[place + 1]);
-        }
-    }
-    is_rough(places.len(), at, range)
-}
-
-/// Whether a function with these values along a step has more extrema than they show for certain, and may get to zero at one of them.
-fn is_rough(count: usize, at: impl Fn(usize) -> f64, range: f64) -> bool {
-    let (mut extrema, mut last) = (0, 0.0);
-    let [mut least, mut most] = [at(0); 2];
-    for place in 1..count {
-        let change = at(place) - at(place - 1);
-        (least, most) = (least.min(at(place)), most.max(at(place)));
-        if change.abs() > DEPTH * range {
-            extrema += usize::from(last * change < 0.0);
-            last = change;
-        }
-    }
-    extrema > EXTREMA && least < WITHIN * (most - least)
-}
-
-/// Whether a function with these values at the start of a step, soon after, shortly before its end and there falls first and rises last,
-/// and may get to zero between.
-fn may_dip([a, soon, late, b]: [f64; 4], range: f64) -> bool {
-    let (falls, rises) = ((soon - a) / END, (b - late) / END);
-    if falls >= 0.0 || rises <= 0.0 {
-        return false;
-    }
-    let at = |theta: f64| {
-        let [mut g, mut rate] = [[0.0]; 2];
-        let ends = [[&[a][..], &[falls]], [&[b], &[rises]]];
-        between(theta, 1.0, ends, [&mut g, &mut rate]);
-        g[0]
-    };
-    let least = (1..8)
-        .map(|k| at(f64::from(k) / 8.0))
-        .fold(a.min(b), f64::min);
-    least < SHAPE * (range - least)
 }
