@@ -85,6 +85,11 @@ impl Switches {
         self.branches.is_empty()
     }
 
+    /// Branches have changed, and with them what functions were where the run stands.
+    fn forget(&mut self) {
+        self.buffers.forget();
+    }
+
     /// How far switch k with the value `g` is within its branch; negative outside.
     fn inside(&self, k: usize, g: f64) -> f64 {
         self.branches[k].sign() * (g - self.levels[k])

@@ -300,6 +300,12 @@ impl Problem for Run<'_> {
     fn set_branch(&mut self, k: usize, branch: Branch) {
         self.solver.mechanism_mut().hold(k, branch);
         self.recorder.projector.mechanism.hold(k, branch);
+        if let Some(mechanism) = &mut self.sloped {
+            mechanism.hold(k, branch);
+        }
+        if let Some(mechanism) = &mut self.along {
+            mechanism.hold(k, branch);
+        }
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {

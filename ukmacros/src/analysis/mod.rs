@@ -77,11 +77,10 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let constraints = system.constraints.iter().map(|c| c.item.text());
     let names: Vec<String> = coordinates.chain(constraints).collect();
     let structure = structure::structure(system, &dynamics, model);
-    let (mut held, switches) = switches::hold(system, &dynamics, &names);
+    let (mut held, [switches, mut located]) = switches::hold(system, &dynamics, &names);
     phases::shared(system, &mut held);
     let mut regular = regular::regular(system, &held);
-    // The listing shows reactions by their names.
-    let mut located = switches.clone();
+    // The listing shows switches as they are declared, and reactions by their names.
     let solved = reactions::solve(system, &mut held, &mut regular, &mut located, &names);
     let Chosen {
         solve,

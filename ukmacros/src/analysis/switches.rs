@@ -33,19 +33,20 @@ struct Decision {
 }
 
 /// Finds the switches and makes the equations depend on the branches held, [`Symbol::Branch`]; energies stay as they are. `names` are
-/// those of the coordinates, then of the constraints. Without a switch the equations are returned as they are.
+/// those of the coordinates, then of the constraints. Without a switch the equations are returned as they are. The switches come as they
+/// are declared, and as they are where branches are held: a function that depends on the sign of another goes on smoothly at its zero.
 pub(crate) fn hold(
     system: &mut System,
     dynamics: &Dynamics,
     names: &[String],
-) -> (Dynamics, Vec<Switch>) {
+) -> (Dynamics, [Vec<Switch>; 2]) {
     let g = &mut system.graph;
     let mut held = dynamics.clone();
     let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
     let turns = |id: &Id| branches(g.node(*id)).is_some() || !lengths_below(*id, g).is_empty();
     let order = g.reachable(&roots);
     if !order.iter().any(turns) {
-        return (held, Vec::new());
+        return (held, [Vec::new(), Vec::new()]);
     }
     let mut switches = Found::default();
     let mut lengths = Found::default();
@@ -61,10 +62,11 @@ pub(crate) fn hold(
     }
     let Found { numbers, list } = switches;
     if list.is_empty() {
-        return (held, lengths.list);
+        return (held, [lengths.list.clone(), lengths.list]);
     }
     let mut pass = Pass {
         numbers,
+        values: Map::default(),
         branches: Map::default(),
     };
     let known = g.rewritten(&order, |g, id, known| pass.rewrite(id, known, g));
@@ -72,8 +74,16 @@ pub(crate) fn hold(
         *id = known[id];
     }
     system.carry_names(&known);
-    let switches = list.into_iter().chain(lengths.list).collect();
-    (held, switches)
+    let switches: Vec<Switch> = list.into_iter().chain(lengths.list).collect();
+    let located = switches.iter().map(|switch| Switch {
+        function: *pass
+            .values
+            .get(&switch.function)
+            .unwrap_or(&switch.function),
+        ..switch.clone()
+    });
+    let located = located.collect();
+    (held, [switches, located])
 }
 
 /// Switches with their terms, and their positions by their functions.
@@ -178,6 +188,8 @@ fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
 struct Pass {
     /// Positions of the switches by their functions.
     numbers: Map<Id, usize>,
+    /// Each g where branches are held.
+    values: Map<Id, Id>,
     /// What stands for g in decisions: the branch where one is held.
     branches: Map<Id, Id>,
 }
@@ -228,6 +240,7 @@ impl Pass {
             Some(value) => *value,
             None => g.with_operands(function, |_, operand| known[&operand]),
         };
+        self.values.insert(function, value);
         let held = g.symbol(Symbol::Branch(self.numbers[&function]));
         let branch = g.call2(Func::Branch, value, held);
         self.branches.insert(function, branch);

@@ -100,7 +100,7 @@ impl Driver<'_> {
             return Err(self.passage.untold());
         };
         self.stand(place, &y);
-        self.equations.flip(switches);
+        self.equations.flip(switches, &y);
         self.equations.settle(&y);
         match self.relaunches <= BRANCHES && self.launch()? {
             true => Ok(()),

@@ -42,7 +42,8 @@ impl Driver<'_> {
         if self.scheme.begin(&mut self.equations).is_ok() {
             return Ok(());
         }
-        self.equations.set_branch(switches, Branch::Followed);
+        self.equations
+            .set_branch(switches, Branch::Followed, self.scheme.start());
         self.begin()
     }
 
@@ -117,7 +118,7 @@ impl Driver<'_> {
         };
         let turned = self.equations.turn(&switches, self.scheme.start());
         let turned = turned.map_err(|stuck| {
-            self.equations.flip(&stuck.0);
+            self.equations.flip(&stuck.0, self.scheme.start());
             self.rests(stuck)
         });
         if turned? {
@@ -185,9 +186,9 @@ impl Driver<'_> {
         // It has come by the accelerations of the branches before.
         let (n, at) = (y.len() / 2, Sample::of(now.t, &y));
         let mut acceleration = vec![0.0; n];
-        self.equations.flip(&switches);
+        self.equations.flip(&switches, &y);
         let before = (self.equations.problem).acceleration(at, &mut acceleration);
-        self.equations.flip(&switches);
+        self.equations.flip(&switches, &y);
         self.equations.settle(&y);
         if before.is_err() {
             return false;

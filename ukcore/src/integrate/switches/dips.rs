@@ -56,6 +56,11 @@ impl Buffers {
             within: vec![nothing; count],
         }
     }
+
+    /// What was looked at last is no longer known.
+    pub(super) fn forget(&mut self) {
+        self.known_at = f64::NAN;
+    }
 }
 
 /// What is seen of functions within a step.

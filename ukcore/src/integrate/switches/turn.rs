@@ -10,16 +10,36 @@ impl Equations<'_> {
     /// Makes y' that of `branch` of switch k from here on, whatever the sign of its function.
     fn set(&mut self, k: usize, branch: Branch) {
         self.switches.branches[k] = branch;
+        self.switches.forget();
         self.problem.set_branch(k, branch);
     }
 
-    /// Puts `switches` into `branch`.
-    pub(in crate::integrate) fn set_branch(&mut self, switches: &[usize], branch: Branch) {
+    /// Puts `switches` into `branch`, at this state.
+    pub(in crate::integrate) fn set_branch(
+        &mut self,
+        switches: &[usize],
+        branch: Branch,
+        y: &[f64],
+    ) {
+        if switches.is_empty() {
+            return;
+        }
+        let before = self.values(y);
         switches.iter().for_each(|k| self.set(*k, branch));
+        self.follow_jumps(before, y);
     }
 
-    /// Puts `switches` into their other branches.
-    pub(in crate::integrate) fn flip(&mut self, switches: &[usize]) {
+    /// Puts `switches` into their other branches, at this state.
+    pub(in crate::integrate) fn flip(&mut self, switches: &[usize], y: &[f64]) {
+        if switches.is_empty() {
+            return;
+        }
+        let before = self.values(y);
+        self.turn_over(switches);
+        self.follow_jumps(before, y);
+    }
+
+    fn turn_over(&mut self, switches: &[usize]) {
         for k in switches {
             let other = match self.switches.branches[*k] {
                 Branch::Followed => Branch::Followed,
@@ -28,6 +48,32 @@ impl Equations<'_> {
             };
             self.set(*k, other);
             self.switches.levels[*k] = 0.0;
+        }
+    }
+
+    /// The functions at this state, in the branches held.
+    fn values(&mut self, y: &[f64]) -> Vec<f64> {
+        let at = self.at(self.course.now.s, y);
+        let mut values = vec![0.0; self.switches.branches.len()];
+        self.problem.switching(at, &mut values);
+        values
+    }
+
+    /// Branches have been set at this state, where the functions had the values `before`: those that depend on them, as a limit on a force
+    /// depends on the sign of its velocity, may have jumped into their other branches, and take these. (Each once: what jumps is nested.)
+    fn follow_jumps(&mut self, mut before: Vec<f64>, y: &[f64]) {
+        for _ in 0..before.len() {
+            let after = self.values(y);
+            let jumped = |k: &usize| {
+                let sign = self.switches.branches[*k].sign();
+                after[*k] != before[*k] && after[*k] * sign < 0.0 && before[*k] * sign >= 0.0
+            };
+            let jumped: Vec<usize> = (0..after.len()).filter(jumped).collect();
+            if jumped.is_empty() {
+                return;
+            }
+            self.turn_over(&jumped);
+            before = after;
         }
     }
 
@@ -58,7 +104,7 @@ impl Equations<'_> {
         let doubt = std::mem::take(&mut self.switches.doubt);
         if doubt {
             let all: Vec<usize> = (0..self.switches.branches.len()).collect();
-            self.set_branch(&all, Branch::Followed);
+            all.iter().for_each(|k| self.set(*k, Branch::Followed));
         }
         doubt
     }
@@ -69,14 +115,14 @@ impl Equations<'_> {
         let branches = self.switches.branches.iter().enumerate();
         let zeros = branches.filter(|(_, branch)| **branch == Branch::Followed);
         let zeros: Vec<usize> = zeros.map(|(k, _)| k).collect();
-        self.set_branch(&zeros, Branch::Positive);
+        self.set_branch(&zeros, Branch::Positive, y);
         let down = self.driven_out(&zeros, y);
         let rest = self.at_rest(&zeros, y);
-        self.set_branch(&rest, Branch::Followed);
-        self.set_branch(&down, Branch::Negative);
+        self.set_branch(&rest, Branch::Followed, y);
+        self.set_branch(&down, Branch::Negative, y);
         let back = self.driven_out(&down, y);
         // Driven back from both sides, it may stay between them: at rest under friction, without a force.
-        self.set_branch(&back, Branch::Followed);
+        self.set_branch(&back, Branch::Followed, y);
         match self.at_rest(&back, y).len() == back.len() {
             true => Ok(zeros),
             false => Err(Stuck(back)),
@@ -87,7 +133,7 @@ impl Equations<'_> {
     /// these.
     pub(in crate::integrate) fn arrive(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
         let targets = std::mem::take(&mut self.switches.targets);
-        self.flip(&targets);
+        self.flip(&targets, y);
         self.settle(y);
         if !targets.is_empty() {
             self.turn(&targets, y)?;
@@ -106,7 +152,7 @@ impl Equations<'_> {
         if out.is_empty() {
             return Ok(false);
         }
-        self.flip(&out);
+        self.flip(&out, y);
         self.settle(y);
         let stuck = self.driven_out(&out, y);
         match stuck.is_empty() {
