@@ -24,6 +24,7 @@ mod orientations;
 mod parting;
 mod passing;
 mod poles;
+mod pulses;
 mod redundant;
 mod redundant_loop;
 mod rounded;

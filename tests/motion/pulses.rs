@@ -1,0 +1,196 @@
+//! Forces that are switched on and off more often than steps are long, by the time or by an angle that turns fast: pulses, square waves,
+//! duty cycles; and switches that depend on the sign of another.
+
+use std::f64::consts::TAU;
+
+use tests::{apart, at, largest};
+use ukcore::{Mechanism, Method, Simulation, State};
+
+/// The stiffness of the springs.
+const STIFFNESS: f64 = 4.0;
+
+ukcore::multibody! {
+    /// Bodies on springs that are pushed for a part of each turn: of the time's, of a rotor's.
+    Pushed {
+        params { w = 50.0, f = 3.0, level = 0.95 }
+        coords { x, y, a }
+        mass { x: 1.0, y: 1.0, a: 1.0 }
+        potential { 2.0 * sq(x), 2.0 * sq(y) }
+        force {
+            x: 0.5 * f * (1.0 + sign(sin(w * t) - level)),
+            y: 0.5 * f * (1.0 + sign(sin(a) - level)),
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A body on a spring that is driven by a motor for a part of each period, from its middle on.
+    Duty {
+        params { w = 50.0, f = 3.0, share = 0.3 }
+        coords { x }
+        mass { x: 1.0 }
+        potential { 2.0 * sq(x) }
+        force { x: 0.5 * f * (1.0 + sign(share - acos(-cos(w * t)) / PI)) }
+    }
+}
+
+ukcore::multibody! {
+    /// Bodies that are drawn back, and pushed the way that they move: by a force that grows without bound and is limited, by one whose
+    /// direction is the sign of a sum with a sign in it, and by one that is limited in a limit.
+    Limited {
+        params { g = 2.0, u = 0.5, k = 50.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        force {
+            x: g + max(-u, min(u, k * (1.0 + sq(x)) * sign(dot(x)))),
+            y: g + u * sign(k * sign(dot(y)) + 0.1),
+            z: g + max(-u, min(u, 2.0 * max(-1.0, min(1.0, k * sign(dot(z)))))),
+        }
+    }
+}
+
+const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
+const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+
+/// Runs by all methods end where `end` says.
+#[track_caller]
+fn check<M: Mechanism>(what: &str, mechanism: &M, start: &State, until: f64, end: &[f64]) {
+    for method in METHODS {
+        for tolerance in TOLERANCES {
+            let run = Simulation::new(mechanism.clone())
+                .start(start.clone())
+                .method(method)
+                .tolerance(tolerance)
+                .until(until)
+                .unwrap_or_else(|error| panic!("{what}, {method}, {tolerance:e}: {error}"));
+            let last = run.last().expect("an end");
+            let found = [last.q, last.v].concat();
+            let off = apart(&found, end);
+            assert!(
+                off < 1e2 * tolerance,
+                "{what}, {method}, {tolerance:e}: off by {off:e}"
+            );
+        }
+    }
+}
+
+/// Where a body on a spring is at `until`, that starts at rest and is pushed by `f` between these shares of each turn.
+fn pushed(w: f64, f: f64, [on, off]: [f64; 2], until: f64) -> [f64; 2] {
+    let (rate, mut state, mut t) = (STIFFNESS.sqrt(), [0.0, 0.0], 0.0);
+    let turns = (until * w / TAU).ceil() as usize;
+    let changes = (0..turns).flat_map(|turn| {
+        [(on, 0.0), (off, f), (1.0, 0.0)].map(|(share, f)| (turn as f64 + share, f))
+    });
+    for (turns, force) in changes {
+        let next = (TAU * turns / w).min(until);
+        let (sin, cos) = (rate * (next - t)).sin_cos();
+        let (x, v) = (state[0] - force / STIFFNESS, state[1] / rate);
+        state = [
+            force / STIFFNESS + x * cos + v * sin,
+            rate * (v * cos - x * sin),
+        ];
+        t = next;
+    }
+    state
+}
+
+#[test]
+fn pulses_much_shorter_than_steps_are_all_felt() {
+    for w in [7.0, 10.0, 19.0, 30.0, 40.0, 113.0, 400.0] {
+        for level in [0.0_f64, 0.95] {
+            let from = level.asin() / TAU;
+            let [x, v] = pushed(w, 3.0, [from, 0.5 - from], 2.0);
+            let pushed = Pushed {
+                w,
+                level,
+                ..Pushed::default()
+            };
+            let start = at(&[0.0; 3], &[0.0, 0.0, w]);
+            let end = [x, x, 2.0 * w, v, v, w];
+            check(
+                &format!("{w} rad/s above {level}"),
+                &pushed,
+                &start,
+                2.0,
+                &end,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_duty_cycle_keeps_its_share() {
+    for w in [15.0, 60.0, 500.0] {
+        for share in [0.02, 0.3] {
+            let duty = Duty {
+                w,
+                share,
+                ..Duty::default()
+            };
+            let [x, v] = pushed(w, 3.0, [0.5 - 0.5 * share, 0.5 + 0.5 * share], 2.0);
+            check(
+                &format!("{w} rad/s for {share}"),
+                &duty,
+                &at(&[0.0], &[0.0]),
+                2.0,
+                &[x, v],
+            );
+        }
+    }
+}
+
+#[test]
+fn pulses_are_felt_late_and_backward() {
+    let w = 64.0;
+    let period = TAU / w;
+    let [x, v] = pushed(w, 3.0, [0.0, 0.5], 20.0 * period);
+    let pushed = Pushed {
+        w,
+        level: 0.0,
+        ..Pushed::default()
+    };
+    for turns in [1e3_f64, 1e5] {
+        let t = turns * period;
+        let start = State {
+            t,
+            q: vec![0.0; 3],
+            v: vec![0.0, 0.0, w],
+        };
+        let run = Simulation::new(pushed.clone())
+            .start(start)
+            .until(t + 20.0 * period);
+        let run = run.expect("it is pushed");
+        let end = run.last().expect("an end").to_state();
+        let off = apart(&[end.q[0], end.q[1], end.v[0], end.v[1]], &[x, x, v, v]);
+        assert!(off < 1e-7, "after {turns} turns: off by {off:e}");
+        let back = Simulation::new(pushed.clone()).start(end).until(t);
+        let back = back.expect("it goes back");
+        let off = largest(&back.last().expect("an end").q[..2]);
+        assert!(off < 1e-7, "back by {turns} turns: off by {off:e}");
+    }
+}
+
+#[test]
+fn a_limit_turns_with_the_sign_that_it_limits() {
+    let (speed, until) = (1.0, 2.0);
+    let (before, after) = (1.5, 2.5);
+    let left = until - speed / before;
+    let x = -0.5 * speed * speed / before + 0.5 * after * left * left;
+    let end = [[x; 3], [after * left; 3]].concat();
+    check(
+        "limited",
+        &Limited::default(),
+        &at(&[0.0; 3], &[-speed; 3]),
+        until,
+        &end,
+    );
+    // From rest it goes where it is drawn.
+    let end = [[0.5 * after * until * until; 3], [after * until; 3]].concat();
+    check(
+        "from rest",
+        &Limited::default(),
+        &at(&[0.0; 3], &[0.0; 3]),
+        until,
+        &end,
+    );
+}
