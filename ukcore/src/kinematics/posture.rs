@@ -147,11 +147,18 @@ impl Curve<'_> {
 
     /// A guess of the place where the piece from `a` to `b` has the part `s` of the sweep.
     fn guess(&self, a: &Place, b: &Place, s: f64) -> DVector<f64> {
-        let (n, sense) = (self.mech.spec().n(), (b.s() - a.s()).signum());
+        let (n, chord) = (self.mech.spec().n(), b.s() - a.s());
+        let length = (&b.x - &a.x).component_div(&self.units).norm();
+        let [first, last] = [a, b].map(|place| length * place.speed() * self.units[n]);
+        // Of the cubic only s, while it is searched for.
+        let s_at = |p: f64| {
+            let rest = 1.0 - p;
+            a.s() + p * p * (3.0 - 2.0 * p) * chord + p * rest * (rest * first - p * last)
+        };
         let (mut low, mut high) = (0.0, 1.0);
         while high - low > 1e-9 {
             let middle = 0.5 * (low + high);
-            match (self.between(a, b, middle).0[n] - s) * sense < 0.0 {
+            match (s_at(middle) - s) * chord.signum() < 0.0 {
                 true => low = middle,
                 false => high = middle,
             }
