@@ -275,7 +275,7 @@ impl Switches {
         });
         let early = |k: usize| {
             let [soon, later] = [&soon, &later].map(|values| values[k] - from[k]);
-            from[k] * half[k] < 0.0 || later.abs() < 3.0 * soon.abs()
+            from[k] * half[k] < 0.0 || later / soon < 3.0
         };
         let changes = |k: usize| soon[k] * half[k] < 0.0 && early(k);
         (0..half.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
