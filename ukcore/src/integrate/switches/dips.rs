@@ -40,6 +40,8 @@ pub(super) struct Buffers {
     /// Time and state along a part of the step, and the functions there.
     along: Vec<Along>,
     within: Vec<Along>,
+    /// The functions of which bounds along the whole step do not tell.
+    open: Vec<usize>,
 }
 
 impl Buffers {
@@ -54,6 +56,7 @@ impl Buffers {
             known_at: f64::NAN,
             along: vec![nothing; n],
             within: vec![nothing; count],
+            open: Vec::with_capacity(count),
         }
     }
 
@@ -72,6 +75,11 @@ pub(in crate::integrate) enum Seen {
     Dips,
     /// The functions change too often to tell.
     Rough,
+}
+
+/// From where a function that is within its branch by these counts as outside.
+fn beyond(values: [f64; 2]) -> f64 {
+    -DEPTH * values[0].abs().max(values[1].abs())
 }
 
 /// What is seen of one function.
@@ -161,27 +169,31 @@ impl Switches {
         }
         problem.switching(Sample::of(to, ends[1]), &mut buffers.known);
         buffers.known_at = to;
-        let held: Vec<usize> = (0..self.branches.len())
-            .filter(|k| self.branches[*k] != Branch::Followed && !self.targets.contains(k))
-            .collect();
+        let held = |k: &usize| self.branches[*k] != Branch::Followed && !self.targets.contains(k);
+        let mut open = std::mem::take(&mut buffers.open);
+        open.extend((0..self.branches.len()).filter(held));
         let outside = |k: &usize| self.inside(*k, buffers.known[*k]) < 0.0;
-        self.doubt |= held.iter().any(outside);
+        self.doubt |= open.iter().any(outside);
         let mut look = |place: f64, values: &mut [f64]| {
             way.look(problem, place, &mut buffers.state, values);
         };
         let mut rough = self.turns_early(&buffers.from, &mut look, &mut buffers.values);
-        if !held.is_empty() {
+        if !open.is_empty() {
             let (along, within) = (&mut buffers.along, &mut buffers.within);
             way.look_along(problem, [0.0, 1.0], along, within);
-            let first = buffers.within.clone();
-            for k in held {
-                match self.sight(k, &way, problem, &mut buffers, first[k]) {
-                    Sight::Stays => {}
-                    Sight::Leaves(place) => self.dips.push(place),
-                    Sight::Rough => rough = true,
-                }
+            open.retain(|k| {
+                let ends = self.ends(*k, &buffers);
+                self.leaves(*k, buffers.within[*k], ends[1], beyond(ends)) != Some(false)
+            });
+        }
+        for k in open.drain(..) {
+            match self.sight(k, &way, problem, &mut buffers) {
+                Sight::Stays => {}
+                Sight::Leaves(place) => self.dips.push(place),
+                Sight::Rough => rough = true,
             }
         }
+        buffers.open = open;
         self.buffers = buffers;
         match self.dips.is_empty() {
             false => Seen::Dips,
@@ -190,44 +202,52 @@ impl Switches {
         }
     }
 
-    /// What is seen of function k on a way, along the whole of which it and its derivative are within `whole`.
+    /// How far function k is within its branch at the ends of the step.
+    fn ends(&self, k: usize, buffers: &Buffers) -> [f64; 2] {
+        [&buffers.from, &buffers.known].map(|values| self.inside(k, values[k]))
+    }
+
+    /// Whether function k leaves its branch on a part of a step, if that is told by the bounds of it and its derivative there and by how
+    /// far it is within its branch at the end of it; it is outside from `beyond` on.
+    fn leaves(&self, k: usize, within: Along, end: f64, beyond: f64) -> Option<bool> {
+        let sides = within.re.ends().map(|g| self.inside(k, g));
+        let [falls, rises] = within.eps.ends();
+        let one_way = falls >= 0.0 || rises <= 0.0;
+        match end < beyond {
+            true => one_way.then_some(true),
+            false => (one_way || sides[0].min(sides[1]) >= beyond).then_some(false),
+        }
+    }
+
+    /// What is seen of function k on a way.
     fn sight<T: Fn(f64) -> f64>(
         &self,
         k: usize,
         way: &Way<'_, T>,
         problem: &mut dyn Problem,
         buffers: &mut Buffers,
-        whole: Along,
     ) -> Sight {
-        let side = self.branches[k].sign();
-        let [from, to] = [&buffers.from, &buffers.known].map(|values| self.inside(k, values[k]));
-        let mut range = from.abs().max(to.abs());
+        let ends = self.ends(k, buffers);
+        let mut least = beyond(ends);
         let mut undecided = 0;
         // Parts of the way with the values at their ends, the first part last: behind the end of the first one the function is outside,
         // if it is at the end of any.
-        let mut parts = vec![([0.0, 1.0], [from, to])];
-        let mut within = Some(whole);
+        let mut parts = vec![([0.0, 1.0], ends)];
         for _ in 0..LOOKS {
             let Some(([a, b], [at_a, at_b])) = parts.pop() else {
                 return Sight::Stays;
             };
-            let within = within.take().unwrap_or_else(|| {
-                let (along, within) = (&mut buffers.along, &mut buffers.within);
-                way.look_along(problem, [a, b], along, within);
-                within[k]
-            });
-            let inside = (within.re - Interval::exact(self.levels[k])) * Interval::exact(side);
-            let [[least, _], [falls, rises]] = [inside.ends(), within.eps.ends()];
-            let leaves = at_b < -DEPTH * range;
-            let one_way = falls >= 0.0 || rises <= 0.0;
-            match leaves {
-                true if one_way => return Sight::Leaves(b),
-                false if one_way || least >= -DEPTH * range => continue,
-                _ => {}
+            let (along, within) = (&mut buffers.along, &mut buffers.within);
+            way.look_along(problem, [a, b], along, within);
+            let within = within[k];
+            match self.leaves(k, within, at_b, least) {
+                Some(true) => return Sight::Leaves(b),
+                Some(false) => continue,
+                None => {}
             }
             if b - a < LEAST {
                 undecided += 1;
-                match leaves {
+                match at_b < least {
                     true => return Sight::Leaves(b),
                     false if undecided == UNDECIDED => return Sight::Stays,
                     false => continue,
@@ -236,16 +256,21 @@ impl Switches {
             let middle = 0.5 * (a + b);
             way.look(problem, middle, &mut buffers.state, &mut buffers.values);
             let value = self.inside(k, buffers.values[k]);
-            range = range.max(value.abs());
-            let beyond = -DEPTH * range;
-            if value < beyond {
+            least = least.min(beyond([value; 2]));
+            if value < least {
                 // Behind it nothing matters any more.
                 parts.clear();
                 parts.push(([a, middle], [at_a, value]));
                 continue;
             }
-            let steepest = falls.abs().max(rises.abs());
-            if !leaves && value - 0.5 * (b - a) * steepest >= beyond {
+            // It is nowhere farther from its middle than its derivative lets it.
+            let steepest = within
+                .eps
+                .ends()
+                .map(f64::abs)
+                .into_iter()
+                .fold(0.0, f64::max);
+            if at_b >= least && value - 0.5 * (b - a) * steepest >= least {
                 continue;
             }
             parts.push(([middle, b], [value, at_b]));
