@@ -103,7 +103,7 @@ impl Course {
     }
 
     /// Whether the place `a` comes before `b` on the way.
-    fn is_before(&self, a: f64, b: f64) -> bool {
+    pub(super) fn is_before(&self, a: f64, b: f64) -> bool {
         self.along * a < self.along * b
     }
 

@@ -53,6 +53,10 @@ pub(super) struct Switches {
     /// it.
     levels: Vec<f64>,
     values: Vec<f64>,
+    /// Up to where on the way each switch is followed, whatever its value is: it hovers at its zero, where y' has a kink at most.
+    loose: Vec<f64>,
+    /// Where each switch was last turned, and how often it was before without getting away from there.
+    turned: Vec<(f64, usize)>,
     /// Distances into the branches at the start of a part of a step.
     before: Vec<f64>,
     state: Vec<f64>,
@@ -72,6 +76,8 @@ impl Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
             values: vec![0.0; count],
+            loose: vec![f64::NAN; count],
+            turned: vec![(f64::NAN, 0); count],
             before: vec![0.0; count],
             state: vec![0.0; n],
             dips: Vec::new(),

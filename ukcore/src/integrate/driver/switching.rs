@@ -116,6 +116,12 @@ impl Driver<'_> {
                 switches
             }
         };
+        if self
+            .equations
+            .hover(&switches, whole.0, self.scheme.start())
+        {
+            return self.begin_at(&switches);
+        }
         let turned = self.equations.turn(&switches, self.scheme.start());
         let turned = turned.map_err(|stuck| {
             self.equations.flip(&stuck.0, self.scheme.start());
@@ -160,8 +166,13 @@ impl Driver<'_> {
     pub(super) fn arrive(&mut self) -> Result<bool, Error> {
         let landed = !self.equations.switches.targets.is_empty();
         self.landings += usize::from(landed);
-        let targets = self.equations.arrive(self.scheme.start());
-        let targets = targets.map_err(|stuck| self.rests(stuck))?;
+        let (start, h) = (self.scheme.start(), self.equations.course.h);
+        let targets = match self.equations.arrive(start) {
+            Ok(targets) => targets,
+            Err(Stuck(switches)) if self.equations.loosen(&switches, h, start) => switches,
+            Err(stuck) => return Err(self.rests(stuck)),
+        };
+        self.equations.hover(&targets, h, start);
         // Steps go across lengths, whether they go onto other switches or not.
         if self.equations.course.pace.is_slow() {
             let across = self.equations.carried_across(self.scheme.start());

@@ -302,7 +302,8 @@ impl Switches {
             let [soon, later] = [&soon, &later].map(|values| values[k] - from[k]);
             from[k] * half[k] < 0.0 || later / soon < 3.0
         };
+        let followed = |k: usize| self.branches[k] == Branch::Followed && self.loose[k].is_nan();
         let changes = |k: usize| soon[k] * half[k] < 0.0 && early(k);
-        (0..half.len()).any(|k| self.branches[k] == Branch::Followed && changes(k))
+        (0..half.len()).any(|k| followed(k) && changes(k))
     }
 }

@@ -2,6 +2,18 @@
 
 use crate::integrate::scheme::Equations;
 use crate::mechanism::Branch;
+use crate::scan::axpy;
+
+/// A switch that is turned so often, each time within this part of a step from where it was before, hovers at its zero, and is followed
+/// for as many steps.
+const TURNS: usize = 4;
+const HOVERING: f64 = 1e-3;
+const FOLLOWED: f64 = 10.0;
+
+/// Accelerations that differ by less than this share between the branches of a switch at its zero have a kink there at most; or that
+/// differ by less of what they do little off it.
+const KINK: f64 = 1e-6;
+const LESS: f64 = 0.1;
 
 /// Switches whose functions the motion drives back to zero in either branch: no step leads away from there.
 pub(in crate::integrate) struct Stuck(pub(in crate::integrate) Vec<usize>);
@@ -89,8 +101,18 @@ impl Equations<'_> {
             let all = &mut self.switches;
             let (g, branch) = (all.values[k], all.branches[k]);
             match branch {
-                Branch::Followed if g > 0.0 => self.set(k, Branch::Positive),
-                Branch::Followed if g < 0.0 => self.set(k, Branch::Negative),
+                Branch::Followed if self.course.is_before(self.course.now.s, all.loose[k]) => {}
+                Branch::Followed if g != 0.0 => {
+                    all.loose[k] = f64::NAN;
+                    self.set(
+                        k,
+                        if g > 0.0 {
+                            Branch::Positive
+                        } else {
+                            Branch::Negative
+                        },
+                    );
+                }
                 Branch::Followed => {}
                 _ if g * branch.sign() > 0.0 => all.levels[k] = 0.0,
                 _ if all.inside(k, g) < 0.0 => all.levels[k] = g,
@@ -159,6 +181,97 @@ impl Equations<'_> {
             true => Ok(true),
             false => Err(Stuck(stuck)),
         }
+    }
+
+    /// `switches` are turned at this state, within a step of size `h`: those that come back to their zeros again and again, within a small
+    /// part of steps, and where y' has a kink at most, are followed for a while. Returns whether there are any.
+    pub(in crate::integrate) fn hover(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
+        let s = self.course.now.s;
+        let mut often = Vec::new();
+        for k in switches {
+            let (last, times) = &mut self.switches.turned[*k];
+            *times = if (s - *last).abs() <= HOVERING * h.abs() {
+                *times + 1
+            } else {
+                0
+            };
+            *last = s;
+            if *times >= TURNS {
+                often.push(*k);
+            }
+        }
+        !often.is_empty() && self.loosen(&often, h, y)
+    }
+
+    /// Follows `switches` for some steps of size `h`, if y' has a kink at most at their zeros, which are at this state. Returns whether it
+    /// does.
+    pub(in crate::integrate) fn loosen(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
+        if !self.is_smooth(switches, y) {
+            return false;
+        }
+        let until = self.course.now.s + FOLLOWED * h;
+        for k in switches {
+            self.set(*k, Branch::Followed);
+            self.switches.loose[*k] = until;
+        }
+        true
+    }
+
+    /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
+    fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
+        let at = |own: &Self| own.at(own.course.now.s, y).v.len();
+        let n = at(self);
+        let held: Vec<Branch> = switches
+            .iter()
+            .map(|k| self.switches.branches[*k])
+            .collect();
+        let mut sides = |own: &mut Self, y: &[f64]| -> Option<[Vec<f64>; 2]> {
+            let mut sides = [vec![0.0; n], vec![0.0; n]];
+            let s = own.course.now.s;
+            let mut told = true;
+            for (branch, side) in [Branch::Negative, Branch::Positive]
+                .into_iter()
+                .zip(&mut sides)
+            {
+                switches.iter().for_each(|k| own.set(*k, branch));
+                told &= own.acceleration(s, y, side).is_ok();
+            }
+            for (k, branch) in switches.iter().zip(&held) {
+                own.set(*k, *branch);
+            }
+            told.then_some(sides)
+        };
+        let jump = |sides: &[Vec<f64>; 2]| {
+            let size = sides
+                .iter()
+                .flatten()
+                .fold(0.0_f64, |most, a| most.max(a.abs()));
+            let jump = sides[0].iter().zip(&sides[1]).map(|(a, b)| (a - b).abs());
+            (jump.fold(0.0_f64, f64::max), size)
+        };
+        let Some(here) = sides(self, y) else {
+            return false;
+        };
+        let (most, size) = jump(&here);
+        if most <= KINK * size {
+            return true;
+        }
+        // What is left of it nearer to the zeros.
+        let values = self.values(y);
+        let mut rates = values.clone();
+        let sample = self.at(self.course.now.s, y);
+        self.problem.switching_rate(sample, &here[0], &mut rates);
+        let late = switches.iter().map(|k| -values[*k] / rates[*k]);
+        let late = late
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+            .unwrap_or(0.0);
+        if !late.is_finite() {
+            return false;
+        }
+        let mut zero = y.to_vec();
+        axpy(late, &y[n..], &mut zero[..n]);
+        axpy(late, &here[0], &mut zero[n..]);
+        sides(self, &zero).is_some_and(|there| jump(&there).0 <= LESS * most)
     }
 
     /// The switches among these whose functions leave the branches they are in.
