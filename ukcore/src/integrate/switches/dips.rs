@@ -24,8 +24,16 @@ const DEPTH: f64 = 1e-10;
 const LEAST: f64 = 1e-9;
 const UNDECIDED: usize = 4;
 
-/// Parts of a step up to which a function is looked for; one that has not been told by then is looked at in shorter steps.
-const LOOKS: usize = 1000;
+/// Parts of a step in which the bounds of a function are sought. They are wide of one whose terms all but cancel along the motion: it is
+/// looked at in places then, in the next steps, too, each time in up to twice as many as before.
+const PARTS: usize = 128;
+const MOST_SKIPPED: usize = 63;
+
+/// Places at which a function is looked at where its bounds do not tell, and the extrema between them up to which they show where these
+/// are; a function that gets within this share of its range to zero and has more is looked at in shorter steps.
+const LOOKS: usize = 32;
+const EXTREMA: usize = LOOKS / 4;
+const WITHIN: f64 = 0.25;
 
 /// What dips are searched in.
 #[derive(Default)]
@@ -42,6 +50,8 @@ pub(super) struct Buffers {
     within: Vec<Along>,
     /// The functions of which bounds along the whole step do not tell.
     open: Vec<usize>,
+    /// In how many steps the bounds of each function are not sought any more, and in how many they were not when they had not told last.
+    skipped: Vec<[usize; 2]>,
 }
 
 impl Buffers {
@@ -57,6 +67,7 @@ impl Buffers {
             along: vec![nothing; n],
             within: vec![nothing; count],
             open: Vec::with_capacity(count),
+            skipped: vec![[0; 2]; count],
         }
     }
 
@@ -182,6 +193,9 @@ impl Switches {
             let (along, within) = (&mut buffers.along, &mut buffers.within);
             way.look_along(problem, [0.0, 1.0], along, within);
             open.retain(|k| {
+                if buffers.skipped[*k][0] > 0 {
+                    return true;
+                }
                 let ends = self.ends(*k, &buffers);
                 self.leaves(*k, buffers.within[*k], ends[1], beyond(ends)) != Some(false)
             });
@@ -228,13 +242,18 @@ impl Switches {
         buffers: &mut Buffers,
     ) -> Sight {
         let ends = self.ends(k, buffers);
+        if buffers.skipped[k][0] > 0 {
+            buffers.skipped[k][0] -= 1;
+            return self.sampled(k, way, problem, buffers);
+        }
         let mut least = beyond(ends);
         let mut undecided = 0;
         // Parts of the way with the values at their ends, the first part last: behind the end of the first one the function is outside,
         // if it is at the end of any.
         let mut parts = vec![([0.0, 1.0], ends)];
-        for _ in 0..LOOKS {
+        for _ in 0..PARTS {
             let Some(([a, b], [at_a, at_b])) = parts.pop() else {
+                buffers.skipped[k] = [0; 2];
                 return Sight::Stays;
             };
             let (along, within) = (&mut buffers.along, &mut buffers.within);
@@ -276,9 +295,34 @@ impl Switches {
             parts.push(([middle, b], [value, at_b]));
             parts.push(([a, middle], [at_a, value]));
         }
-        match undecided {
-            0 => Sight::Rough,
-            _ => Sight::Stays,
+        let skipped = (2 * buffers.skipped[k][1] + 1).min(MOST_SKIPPED);
+        buffers.skipped[k] = [skipped; 2];
+        self.sampled(k, way, problem, buffers)
+    }
+
+    /// What places at equal distances show of function k.
+    fn sampled<T: Fn(f64) -> f64>(
+        &self,
+        k: usize,
+        way: &Way<'_, T>,
+        problem: &mut dyn Problem,
+        buffers: &mut Buffers,
+    ) -> Sight {
+        let [from, to] = self.ends(k, buffers);
+        let mut values = [from; LOOKS + 1];
+        values[LOOKS] = to;
+        for (place, value) in values.iter_mut().enumerate().take(LOOKS).skip(1) {
+            let place = place as f64 / LOOKS as f64;
+            way.look(problem, place, &mut buffers.state, &mut buffers.values);
+            *value = self.inside(k, buffers.values[k]);
+        }
+        let least = values
+            .iter()
+            .fold(0.0, |least: f64, value| least.min(beyond([*value; 2])));
+        match values.iter().position(|value| *value < least) {
+            Some(place) => Sight::Leaves(place as f64 / LOOKS as f64),
+            None if is_rough(&values, -least) => Sight::Rough,
+            None => Sight::Stays,
         }
     }
 
@@ -306,4 +350,20 @@ impl Switches {
         let changes = |k: usize| soon[k] * half[k] < 0.0 && early(k);
         (0..half.len()).any(|k| followed(k) && changes(k))
     }
+}
+
+/// Whether a function with these values along a step has more extrema than they show for certain, and may get to zero at one of them;
+/// `least` is rounding.
+fn is_rough(values: &[f64], least: f64) -> bool {
+    let (mut extrema, mut last) = (0, 0.0);
+    let [mut lowest, mut highest] = [values[0]; 2];
+    for pair in values.windows(2) {
+        let change = pair[1] - pair[0];
+        (lowest, highest) = (lowest.min(pair[1]), highest.max(pair[1]));
+        if change.abs() > least {
+            extrema += usize::from(last * change < 0.0);
+            last = change;
+        }
+    }
+    extrema > EXTREMA && lowest < WITHIN * (highest - lowest)
 }

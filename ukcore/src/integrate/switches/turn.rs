@@ -73,6 +73,7 @@ impl Equations<'_> {
 
     /// Branches have been set at this state, where the functions had the values `before`: those that depend on them, as a limit on a force
     /// depends on the sign of its velocity, may have jumped into their other branches, and take these. (Each once: what jumps is nested.)
+    /// One that is zero all along in the branches of others, as what is left beyond a play is within it, is followed.
     fn follow_jumps(&mut self, mut before: Vec<f64>, y: &[f64]) {
         for _ in 0..before.len() {
             let after = self.values(y);
@@ -82,6 +83,11 @@ impl Equations<'_> {
             };
             let jumped: Vec<usize> = (0..after.len()).filter(jumped).collect();
             if jumped.is_empty() {
+                let held = |k: &usize| self.switches.branches[*k] != Branch::Followed;
+                let none = |k: &usize| after[*k] == 0.0 && held(k);
+                let none: Vec<usize> = (0..after.len()).filter(none).collect();
+                let none = self.at_rest(&none, y);
+                none.iter().for_each(|k| self.set(*k, Branch::Followed));
                 return;
             }
             self.turn_over(&jumped);
@@ -225,7 +231,7 @@ impl Equations<'_> {
             .iter()
             .map(|k| self.switches.branches[*k])
             .collect();
-        let mut sides = |own: &mut Self, y: &[f64]| -> Option<[Vec<f64>; 2]> {
+        let sides = |own: &mut Self, y: &[f64]| -> Option<[Vec<f64>; 2]> {
             let mut sides = [vec![0.0; n], vec![0.0; n]];
             let s = own.course.now.s;
             let mut told = true;
