@@ -12,6 +12,7 @@ mod failures;
 mod fallback;
 mod far;
 mod friction;
+mod hovering;
 mod impacts;
 mod integrals;
 mod kinks;

@@ -31,6 +31,11 @@ const SOON: [f64; 4] = [1e-8, 1e-6, 1e-4, 1e-2];
 /// A zero nearer than this part of a step to its end is at its end.
 const AT_END: f64 = 1e-13;
 
+/// A function that was at its zero but for an error of a step has jumped away from it where it has changed by so many times as much, and by
+/// more than this share of its values, which is rounding.
+const JUMP: f64 = 1e3;
+const ROUNDED: f64 = 1e-10;
+
 /// Zeros of several functions within this part of a step are one.
 const TOGETHER: f64 = 1e-10;
 
@@ -53,6 +58,8 @@ pub(super) struct Switches {
     /// it.
     levels: Vec<f64>,
     values: Vec<f64>,
+    /// The largest value of each function at ends of steps.
+    sizes: Vec<f64>,
     /// Up to where on the way each switch is followed, whatever its value is: it hovers at its zero, where y' has a kink at most.
     loose: Vec<f64>,
     /// Where each switch was last turned, and how often it was before without getting away from there.
@@ -76,6 +83,7 @@ impl Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
             values: vec![0.0; count],
+            sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
             turned: vec![(f64::NAN, 0); count],
             before: vec![0.0; count],
@@ -89,6 +97,11 @@ impl Switches {
 
     pub(super) fn is_empty(&self) -> bool {
         self.branches.is_empty()
+    }
+
+    /// Whether function k has jumped away from its zero, from one value to another, for other branches.
+    fn has_jumped(&self, k: usize, before: f64, after: f64) -> bool {
+        (after - before).abs() > (JUMP * before.abs()).max(ROUNDED * self.sizes[k])
     }
 
     /// Branches have changed, and with them what functions were where the run stands.

@@ -64,10 +64,10 @@ impl Driver<'_> {
         }
         let (ends, problem) = (self.scheme.states(), &mut *equations.problem);
         match (equations.switches).dips(problem, time, trial.h, ends) {
-            _ if equations.switches.doubt || from > 0.0 || to < 1.0 => {}
-            Seen::Whole => return Ok(false),
-            Seen::Dips => {}
+            _ if from > 0.0 || to < 1.0 => {}
             Seen::Rough => return Err(Refusal::End(None)),
+            Seen::Whole if !equations.switches.doubt => return Ok(false),
+            Seen::Whole | Seen::Dips => {}
         }
         let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;

@@ -6,32 +6,44 @@
 //! where the interval of its values does, or where it does at both and its derivative has one sign; else the way between them is halved
 //! (Moore 1966, Interval Analysis; Snyder 1992, Interval analysis for computer graphics).
 
+use std::convert::Infallible;
+
 use super::Switches;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Problem, between};
 use crate::interval::{Along, Interval};
 use crate::mechanism::Branch;
 use crate::scalar::{Dual, Scalar};
+use crate::zero::below;
 
 /// Part of a step up to which what is followed leaves its zero.
 const NEAR: f64 = 1e-3;
 
-/// What a function goes beyond its zero counts from this share of its values at the places looked at: less is rounding.
+/// What a function goes beyond its zero counts from this share of its values at the ends of the step: less is rounding.
 const DEPTH: f64 = 1e-10;
 
-/// Part of a step that is not halved, and how many of these may be undecided: a function that all but touches its zero there, or has no
-/// value.
+/// Part of a step that is not halved: a function all but touches its zero there, or has no value.
 const LEAST: f64 = 1e-9;
-const UNDECIDED: usize = 4;
 
-/// Parts of a step in which the bounds of a function are sought. They are wide of one whose terms all but cancel along the motion: it is
-/// looked at in places then, in the next steps, too, each time in up to twice as many as before.
-const PARTS: usize = 128;
-const MOST_SKIPPED: usize = 63;
+/// Parts of a step in which the bounds of a function are sought. They are wide of one whose terms all but cancel along the motion: where
+/// they do not tell in so many, it is looked at in places in the next steps, each time in twice as many as before.
+const PARTS: usize = 96;
+const MOST_SKIPPED: usize = 255;
 
 /// Places at which a function is looked at where its bounds do not tell, and the extrema between them up to which they show where these
 /// are; a function that gets within this share of its range to zero and has more is looked at in shorter steps.
 const LOOKS: usize = 32;
+/// (At unequal distances, as what changes evenly shows nothing at equal ones.)
+const LOOKED_AT: [f64; LOOKS + 1] = {
+    let mut places = [1.0; LOOKS + 1];
+    let mut place = 0;
+    while place < LOOKS {
+        let golden = 0.618_033_988_749_895 * place as f64;
+        places[place] = (place as f64 + 0.8 * (golden - golden as usize as f64)) / LOOKS as f64;
+        place += 1;
+    }
+    places
+};
 const EXTREMA: usize = LOOKS / 4;
 const WITHIN: f64 = 0.25;
 
@@ -71,6 +83,12 @@ impl Buffers {
         }
     }
 
+    /// The bounds of function k were `wide`, or not.
+    fn skip(&mut self, k: usize, wide: bool) {
+        let longer = (2 * self.skipped[k][1] + 1).min(MOST_SKIPPED);
+        self.skipped[k] = [if wide { longer } else { 0 }; 2];
+    }
+
     /// What was looked at last is no longer known.
     pub(super) fn forget(&mut self) {
         self.known_at = f64::NAN;
@@ -101,6 +119,16 @@ enum Sight {
     Leaves(f64),
     /// It changes too often to tell.
     Rough,
+}
+
+impl Sight {
+    /// That of a function that is first outside at a place, or nowhere, where that is infinite.
+    fn of(place: f64) -> Self {
+        match place.is_finite() {
+            true => Sight::Leaves(place),
+            false => Sight::Stays,
+        }
+    }
 }
 
 /// The way of a step: its size, its time by the part of it, and the states at its ends.
@@ -180,6 +208,9 @@ impl Switches {
         }
         problem.switching(Sample::of(to, ends[1]), &mut buffers.known);
         buffers.known_at = to;
+        for (size, value) in self.sizes.iter_mut().zip(&buffers.known) {
+            *size = size.max(value.abs());
+        }
         let held = |k: &usize| self.branches[*k] != Branch::Followed && !self.targets.contains(k);
         let mut open = std::mem::take(&mut buffers.open);
         open.extend((0..self.branches.len()).filter(held));
@@ -226,14 +257,15 @@ impl Switches {
     fn leaves(&self, k: usize, within: Along, end: f64, beyond: f64) -> Option<bool> {
         let sides = within.re.ends().map(|g| self.inside(k, g));
         let [falls, rises] = within.eps.ends();
-        let one_way = falls >= 0.0 || rises <= 0.0;
+        // Where it jumps, as an angle does, it has no bounds.
+        let one_way = (falls >= 0.0 || rises <= 0.0) && sides.iter().all(|side| side.is_finite());
         match end < beyond {
             true => one_way.then_some(true),
             false => (one_way || sides[0].min(sides[1]) >= beyond).then_some(false),
         }
     }
 
-    /// What is seen of function k on a way.
+    /// What is seen of function k on a way: parts of it, the longest first, are halved until all are told up to where it first leaves.
     fn sight<T: Fn(f64) -> f64>(
         &self,
         k: usize,
@@ -241,89 +273,89 @@ impl Switches {
         problem: &mut dyn Problem,
         buffers: &mut Buffers,
     ) -> Sight {
-        let ends = self.ends(k, buffers);
         if buffers.skipped[k][0] > 0 {
             buffers.skipped[k][0] -= 1;
-            return self.sampled(k, way, problem, buffers);
+            return self.sampled(k, way, problem, buffers, f64::INFINITY);
         }
-        let mut least = beyond(ends);
-        let mut undecided = 0;
-        // Parts of the way with the values at their ends, the first part last: behind the end of the first one the function is outside,
-        // if it is at the end of any.
-        let mut parts = vec![([0.0, 1.0], ends)];
+        let ends = self.ends(k, buffers);
+        let least = beyond(ends).min(-f64::EPSILON * self.sizes[k]);
+        let mut outside = if ends[1] < least { 1.0 } else { f64::INFINITY };
+        let mut parts: Vec<([f64; 2], [f64; 2])> = vec![([0.0, 1.0], ends)];
         for _ in 0..PARTS {
-            let Some(([a, b], [at_a, at_b])) = parts.pop() else {
-                buffers.skipped[k] = [0; 2];
-                return Sight::Stays;
+            let long = |i: &usize| parts[*i].0[1] - parts[*i].0[0];
+            let longest = (0..parts.len()).max_by(|i, j| long(i).total_cmp(&long(j)));
+            let Some(longest) = longest else {
+                buffers.skip(k, false);
+                return Sight::of(outside);
             };
+            let ([a, b], [at_a, at_b]) = parts.swap_remove(longest);
             let (along, within) = (&mut buffers.along, &mut buffers.within);
             way.look_along(problem, [a, b], along, within);
             let within = within[k];
-            match self.leaves(k, within, at_b, least) {
-                Some(true) => return Sight::Leaves(b),
-                Some(false) => continue,
-                None => {}
-            }
-            if b - a < LEAST {
-                undecided += 1;
-                match at_b < least {
-                    true => return Sight::Leaves(b),
-                    false if undecided == UNDECIDED => return Sight::Stays,
-                    false => continue,
-                }
+            if self.leaves(k, within, at_b, least).is_some() || b - a < LEAST {
+                continue;
             }
             let middle = 0.5 * (a + b);
             way.look(problem, middle, &mut buffers.state, &mut buffers.values);
             let value = self.inside(k, buffers.values[k]);
-            least = least.min(beyond([value; 2]));
             if value < least {
                 // Behind it nothing matters any more.
-                parts.clear();
+                outside = middle;
+                parts.retain(|([from, _], _)| *from < middle);
                 parts.push(([a, middle], [at_a, value]));
                 continue;
             }
             // It is nowhere farther from its middle than its derivative lets it.
-            let steepest = within
-                .eps
-                .ends()
-                .map(f64::abs)
-                .into_iter()
-                .fold(0.0, f64::max);
-            if at_b >= least && value - 0.5 * (b - a) * steepest >= least {
+            let [falls, rises] = within.eps.ends().map(f64::abs);
+            if at_b >= least && value - 0.5 * (b - a) * falls.max(rises) >= least {
                 continue;
             }
-            parts.push(([middle, b], [value, at_b]));
             parts.push(([a, middle], [at_a, value]));
+            parts.push(([middle, b], [value, at_b]));
         }
-        let skipped = (2 * buffers.skipped[k][1] + 1).min(MOST_SKIPPED);
-        buffers.skipped[k] = [skipped; 2];
-        self.sampled(k, way, problem, buffers)
+        buffers.skip(k, true);
+        self.sampled(k, way, problem, buffers, outside)
     }
 
-    /// What places at equal distances show of function k.
+    /// What some places show of function k, which is known to be `outside` at one, if that is finite.
     fn sampled<T: Fn(f64) -> f64>(
         &self,
         k: usize,
         way: &Way<'_, T>,
         problem: &mut dyn Problem,
         buffers: &mut Buffers,
+        outside: f64,
     ) -> Sight {
         let [from, to] = self.ends(k, buffers);
         let mut values = [from; LOOKS + 1];
         values[LOOKS] = to;
-        for (place, value) in values.iter_mut().enumerate().take(LOOKS).skip(1) {
-            let place = place as f64 / LOOKS as f64;
-            way.look(problem, place, &mut buffers.state, &mut buffers.values);
-            *value = self.inside(k, buffers.values[k]);
+        for place in 1..LOOKS {
+            way.look(
+                problem,
+                LOOKED_AT[place],
+                &mut buffers.state,
+                &mut buffers.values,
+            );
+            values[place] = self.inside(k, buffers.values[k]);
         }
-        let least = values
-            .iter()
-            .fold(0.0, |least: f64, value| least.min(beyond([*value; 2])));
-        match values.iter().position(|value| *value < least) {
-            Some(place) => Sight::Leaves(place as f64 / LOOKS as f64),
-            None if is_rough(&values, -least) => Sight::Rough,
-            None => Sight::Stays,
+        let least = beyond([from, to]).min(-f64::EPSILON * self.sizes[k]);
+        if is_rough(&values, -least) {
+            return Sight::Rough;
         }
+        let first = values.iter().position(|value| *value < least);
+        let mut outside = first.map_or(outside, |place| outside.min(LOOKED_AT[place]));
+        for place in 1..LOOKS {
+            let [before, here, after] = [place - 1, place, place + 1].map(|place| values[place]);
+            if before > here && here <= after && LOOKED_AT[place - 1] < outside {
+                let value = |theta: f64| -> Result<f64, Infallible> {
+                    way.look(problem, theta, &mut buffers.state, &mut buffers.values);
+                    Ok(self.inside(k, buffers.values[k]))
+                };
+                let Ok(dip) = below(value, least, LOOKED_AT[place - 1], LOOKED_AT[place + 1]);
+                outside = dip.map_or(outside, |dip| outside.min(dip));
+            }
+        }
+        Sight::of(outside)
     }
 
     /// Whether what is followed, and has values `from` at the start of a step, changes its sign in the first half of it, as `look` has it.

@@ -77,9 +77,12 @@ impl Equations<'_> {
     fn follow_jumps(&mut self, mut before: Vec<f64>, y: &[f64]) {
         for _ in 0..before.len() {
             let after = self.values(y);
+            let all = &self.switches;
             let jumped = |k: &usize| {
-                let sign = self.switches.branches[*k].sign();
-                after[*k] != before[*k] && after[*k] * sign < 0.0 && before[*k] * sign >= 0.0
+                let (from, to, sign) = (before[*k], after[*k], all.branches[*k].sign());
+                to != from
+                    && to * sign < 0.0
+                    && (from * sign >= 0.0 || all.has_jumped(*k, from, to))
             };
             let jumped: Vec<usize> = (0..after.len()).filter(jumped).collect();
             if jumped.is_empty() {
@@ -161,11 +164,18 @@ impl Equations<'_> {
     /// these.
     pub(in crate::integrate) fn arrive(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
         let targets = std::mem::take(&mut self.switches.targets);
+        if targets.is_empty() {
+            self.settle(y);
+            return Ok(targets);
+        }
+        let before = self.values(y);
         self.flip(&targets, y);
         self.settle(y);
-        if !targets.is_empty() {
-            self.turn(&targets, y)?;
-        }
+        let after = self.values(y);
+        // What has jumped away from its zero, with others that have turned there, is in its branch.
+        let stand = |k: &usize| !self.switches.has_jumped(*k, before[*k], after[*k]);
+        let stand: Vec<usize> = targets.iter().copied().filter(stand).collect();
+        self.turn(&stand, y)?;
         Ok(targets)
     }
 
@@ -225,27 +235,18 @@ impl Equations<'_> {
 
     /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
     fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
-        let at = |own: &Self| own.at(own.course.now.s, y).v.len();
-        let n = at(self);
-        let held: Vec<Branch> = switches
-            .iter()
-            .map(|k| self.switches.branches[*k])
-            .collect();
+        let n = y.len() / 2;
+        let held = (self.switches.branches.clone(), self.switches.levels.clone());
         let sides = |own: &mut Self, y: &[f64]| -> Option<[Vec<f64>; 2]> {
-            let mut sides = [vec![0.0; n], vec![0.0; n]];
-            let s = own.course.now.s;
-            let mut told = true;
-            for (branch, side) in [Branch::Negative, Branch::Positive]
-                .into_iter()
-                .zip(&mut sides)
-            {
-                switches.iter().for_each(|k| own.set(*k, branch));
-                told &= own.acceleration(s, y, side).is_ok();
-            }
-            for (k, branch) in switches.iter().zip(&held) {
-                own.set(*k, *branch);
-            }
-            told.then_some(sides)
+            let mut side = |branch: Branch| {
+                own.set_branch(switches, branch, y);
+                let mut side = vec![0.0; n];
+                let told = own.acceleration(own.course.now.s, y, &mut side).is_ok();
+                (0..held.0.len()).for_each(|k| own.set(k, held.0[k]));
+                own.switches.levels.clone_from(&held.1);
+                told.then_some(side)
+            };
+            Some([side(Branch::Negative)?, side(Branch::Positive)?])
         };
         let jump = |sides: &[Vec<f64>; 2]| {
             let size = sides
