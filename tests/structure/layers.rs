@@ -158,6 +158,7 @@ fn ukcore() {
             "model",
             "linearise",
             "displacements",
+            "kinks",
             "modes",
             "nearby",
             "branches",

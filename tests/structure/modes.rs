@@ -2,6 +2,7 @@
 
 mod defective;
 mod graded;
+mod kinked;
 
 use tests::{assert_all_close, assert_close, at, at_rest};
 use ukcore::studies::Mode;

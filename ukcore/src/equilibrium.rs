@@ -16,8 +16,9 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{Linear, is_symmetric, linear_motion, steady};
+use crate::modes::{Linear, is_symmetric, linear_motion, sides_at, steady};
 use crate::naming::undirected;
+use crate::noise::Noise;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
 
@@ -43,6 +44,11 @@ pub enum Stability {
     Neutral,
     /// Some small displacements are driven on, faster than in proportion to time, or a vibration grows, be it in proportion to time.
     Unstable,
+    /// A switch of sign, abs, min or max is zero at the position and the motion has another linear part on each side of it, as about a
+    /// joint that is stiffer in one direction, so that no linear motion tells; [`modes`](crate::modes()) names the switch. Only where all
+    /// sides are alike in forces of a potential, as those of a joint that is stiff in both directions, is the position told to be
+    /// [`Stable`](Stability::Stable), and where dampers alone differ what it would be without.
+    Undecided,
 }
 
 /// Attempted steps at most; and of a careful search, as they are short along a stiff spring that turns.
@@ -61,6 +67,8 @@ const ASIDE: f64 = 1e-9;
 const JUMP: f64 = 1e-6;
 const LEFT: f64 = 0.1;
 const ROUNDINGS: f64 = 16.0;
+/// Where a search ends its place is known to so many times the next step.
+const LEFT_OVER: f64 = 2.0;
 /// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
 const MOMENT: f64 = 1e-6;
 /// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0.
@@ -211,6 +219,15 @@ impl Place {
         parts.fold(0.0, |most: f64, (d, extent)| most.max(d.abs() / extent))
     }
 
+    /// The stiffness here of `mech`, by exact derivatives.
+    fn stiffness_of(&self, mech: &Prepared) -> Result<DMatrix<f64>, Error> {
+        let n = self.units.len();
+        let found = Linearisation::at(mech, &self.state)?;
+        let slope = DMatrix::from_vec(n, n, found.by_position);
+        let scaled = DMatrix::from_diagonal(&self.units) * &self.basis;
+        Ok(-scaled.tr_mul(&(&self.mass * (slope * &scaled))))
+    }
+
     /// The way from one place to the other, in units of the coordinates.
     fn chord_from(&self, before: &Place) -> DVector<f64> {
         let pairs = self.state.q.iter().zip(&before.state.q);
@@ -325,7 +342,7 @@ impl Search {
                     continue;
                 }
                 self.is_smooth(&here, &full, &stiffness, (first, *firm))?;
-                let stability = self.stability(&here, &stiffness, linear.transpose()?)?;
+                let stability = self.verdict(&here, &full, stiffness, linear.transpose()?)?;
                 return Ok(Ok(Equilibrium {
                     state: here.state,
                     stability,
@@ -491,11 +508,7 @@ impl Search {
     /// differences.
     fn stiffness(&mut self, here: &Place) -> Result<DMatrix<f64>, Error> {
         if self.held.is_empty() {
-            let n = self.mech.spec().n();
-            let found = Linearisation::at(&self.mech, &here.state)?;
-            let slope = DMatrix::from_vec(n, n, found.by_position);
-            let scaled = DMatrix::from_diagonal(&here.units) * &here.basis;
-            return Ok(-scaled.tr_mul(&(&here.mass * (slope * &scaled))));
+            return here.stiffness_of(&self.mech);
         }
         let freedoms = here.force.len();
         let mut out = DMatrix::zeros(freedoms, freedoms);
@@ -520,11 +533,12 @@ impl Search {
         stiffness: &DMatrix<f64>,
         (first, firm): (f64, f64),
     ) -> Result<(), Error> {
-        let unexplained = is_unexplained(here, stiffness, first).ok_or_else(unfound)?;
+        let rounding = self.rounding(&here.state);
+        let unexplained = is_unexplained(here, stiffness, first, &rounding).ok_or_else(unfound)?;
         let unbalanced = stiffness.amax() * f64::EPSILON > firm
             || unexplained && !self.is_linear(here, step, stiffness);
         let beside = unbalanced.then(|| here.push.icamax());
-        let Some(coordinate) = self.jump(&here.state, &here.units).or(beside) else {
+        let Some(coordinate) = self.jump(&here.state, &here.units, &rounding).or(beside) else {
             return Ok(());
         };
         let reason = format!(
@@ -533,6 +547,15 @@ impl Search {
             self.mech.spec().coords[coordinate]
         );
         Err(Error::invalid("guess", reason))
+    }
+
+    /// What rounding makes of the forces at a state, more at most.
+    fn rounding(&self, State { t, q, v }: &State) -> DVector<f64> {
+        let mut rounding = vec![0.0; q.len()];
+        let mut noise = Noise::new(&self.mech);
+        noise.go(&self.mech, *t, [q, v], |_| [0.0; 2]);
+        noise.force(&mut rounding);
+        DVector::from_vec(rounding) * (ROUNDINGS * f64::EPSILON)
     }
 
     /// Whether the forces beyond `step` are those that the stiffness makes of the ones here, so that they vanish between.
@@ -545,7 +568,12 @@ impl Search {
     }
 
     /// The coordinate on which forces differ most between both sides of a switch that is zero at a state of rest, if they do.
-    fn jump(&self, State { t, q, v }: &State, units: &DVector<f64>) -> Option<usize> {
+    fn jump(
+        &self,
+        State { t, q, v }: &State,
+        units: &DVector<f64>,
+        rounding: &DVector<f64>,
+    ) -> Option<usize> {
         let (mech, spec) = (&self.mech, self.mech.spec());
         // Those of velocities, as of dry friction, are zero wherever it rests.
         let [still, moved] = [&v[..], units.as_slice()].map(|v| mech.switches_at(*t, q, v));
@@ -556,8 +584,15 @@ impl Search {
                 terms.dynamics(&held, *t, q, v);
                 DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal)
             });
-            let change = &one - &other;
-            (change.amax() > JUMP * one.amax().max(other.amax())).then(|| change.icamax())
+            let least = JUMP * one.amax().max(other.amax());
+            let change =
+                (one - other).zip_map(
+                    rounding,
+                    |change, rounding| {
+                        if change.abs() > rounding { change } else { 0.0 }
+                    },
+                );
+            (change.amax() > least).then(|| change.icamax())
         })
     }
 
@@ -569,6 +604,45 @@ impl Search {
             let there = self.displaced(here, &change, share * self.size);
             let aside = there.and_then(|there| self.stiffness(&there));
             aside.is_ok_and(|k| (direction.transpose() * k * direction)[0] < -stiffness)
+        })
+    }
+
+    /// What becomes of small displacements, also where switches are zero, as far as `step` tells where the search ends.
+    fn verdict(
+        &mut self,
+        here: &Place,
+        step: &DVector<f64>,
+        stiffness: DMatrix<f64>,
+        linear: Option<Linear>,
+    ) -> Result<Stability, Error> {
+        let reach = LEFT_OVER * here.displacement(step).abs();
+        let mech = &self.mech;
+        let at = |linear: &Linear| sides_at(mech, &here.state, linear, Some(&reach));
+        let Some(sides) = linear.as_ref().and_then(at) else {
+            return self.stability(here, &stiffness, linear);
+        };
+        // Where there is no linear motion on some side none tells.
+        let mut verdicts = Vec::new();
+        let most = sides.kink.as_ref().map_or(1, |_| sides.held.len());
+        for held in &sides.held[..most] {
+            let motion = Linear::at(held, &here.state);
+            let motion = motion.and_then(|linear| Ok((here.stiffness_of(held)?, linear)));
+            verdicts.push(match motion {
+                Ok((stiffness, linear)) => self.stability(here, &stiffness, Some(linear))?,
+                Err(_) => Stability::Undecided,
+            });
+        }
+        let first = verdicts[0];
+        let Some(kink) = &sides.kink else {
+            return Ok(first);
+        };
+        let spec = self.mech.spec();
+        let by_potential = self.conservative && spec.holonomic == spec.m();
+        let alike = verdicts.iter().all(|verdict| *verdict == first);
+        let tells = kink.of_velocities || sides.complete && first == Stability::Stable;
+        Ok(match by_potential && alike && tells {
+            true => first,
+            false => Stability::Undecided,
         })
     }
 
@@ -610,16 +684,22 @@ impl Search {
     }
 }
 
-/// Whether a search that began with the largest force `first` ends with one that rounding of coordinates does not explain, no less than
-/// where it began. `None` for a stiffness that is not finite.
-fn is_unexplained(here: &Place, stiffness: &DMatrix<f64>, first: f64) -> Option<bool> {
+/// Whether a search that began with the largest force `first` ends with one that rounding of coordinates, or that of forces where these are
+/// zero, does not explain, no less than where it began. `None` for a stiffness that is not finite.
+fn is_unexplained(
+    here: &Place,
+    stiffness: &DMatrix<f64>,
+    first: f64,
+    rounding: &DVector<f64>,
+) -> Option<bool> {
     let sizes = here.state.q.iter().zip(here.units.iter());
     let sizes = DVector::from_iterator(here.units.len(), sizes.map(|(q, unit)| (q / unit).abs()));
     let curved = spectrum::symmetric(symmetric(stiffness))?;
     let ways = &here.basis * &curved.eigenvectors;
     let rounded = ROUNDINGS * f64::EPSILON * ways.abs().tr_mul(&sizes);
     let force = curved.eigenvectors.tr_mul(&here.force);
-    let explained = curved.eigenvalues.abs().component_mul(&rounded);
+    let computed = ways.abs().tr_mul(&rounding.component_mul(&here.units));
+    let explained = curved.eigenvalues.abs().component_mul(&rounded) + computed;
     let left = (force.abs() - explained).map(|left| left.max(0.0));
     let limit = LEFT * first.max(here.parts);
     Some(left.norm() > limit)

@@ -212,6 +212,19 @@ pub enum Error {
         /// The terms that contain such a direction: `"force on x"`.
         terms: Vec<String>,
     },
+    /// A state at the zero of a switching function where the motion near it has another linear part on each side, so that there is no
+    /// linear motion, as of a joint that is stiffer in one direction than in the other.
+    #[error(
+        "no linear motion: `{function}` is 0, where the {} has a kink or a jump, and each side has a linear motion of its own; a run tells \
+         the motion; else smooth the switch, or take a state a little to one side for the linear motion there",
+        terms.join(", ")
+    )]
+    Kink {
+        /// The switching function, as of sign, abs, min or max.
+        function: String,
+        /// The terms that contain it: `"force on x"`.
+        terms: Vec<String>,
+    },
     /// Another error that arose during integration, with the time and state where it did.
     #[error("at t = {}: {source}", full(*t))]
     At {

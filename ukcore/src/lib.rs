@@ -45,6 +45,7 @@ mod integrate;
 mod interval;
 mod inverse;
 mod kinematics;
+mod kinks;
 pub mod lanes;
 mod linearise;
 mod lu;

@@ -21,7 +21,8 @@ use crate::scan::all_finite;
 use crate::solver::{Accepted, Baumgarte, Solver, SolverOptions};
 use crate::spec::Spec;
 
-/// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.
+/// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate. Where a switch of
+/// sign, abs, min or max is zero, and both sides differ, there is no derivative: they are those of the branch taken, one side's at most.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearisation {
     /// The accelerations q̈, n numbers.

@@ -13,6 +13,7 @@ use crate::displacements::{
     complement, constraint_matrix, null_space, pivoted, quaternions, units,
 };
 use crate::error::Error;
+use crate::kinks::{Sides, Ways, sides};
 use crate::linearise::Linearisation;
 use crate::measure::Measure;
 use crate::mechanism::Prepared;
@@ -71,12 +72,40 @@ impl Mode {
 ///
 /// # Errors
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
+/// - [`Error::Kink`] where a switch of sign, abs, min or max is zero and each side of it has a linear motion of its own. Where both have
+///   the same, as about a drag v |v| at rest, modes are those; dry friction, sign(v), is left out.
 /// - What [`Linearisation::at`] reports.
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
     let mech = mechanism.into();
-    let linear = Linear::at(&mech, state)?;
+    let mut linear = Linear::at(&mech, state)?;
     steady(&mech, state, &linear)?;
+    if let Some(Sides { held, kink, .. }) = sides_at(&mech, state, &linear, None) {
+        match (kink, &held[..]) {
+            (Some(kink), _) => return Err(kink.error(&mech)),
+            (None, [held, ..]) => linear = Linear::at(held, state)?,
+            (None, []) => {}
+        }
+    }
     linear_motion(&mech, state, &linear).map(|(modes, _)| modes)
+}
+
+/// Both sides of the switches that are zero at `state`, or within `reach` of its coordinates, as [`sides`] finds them.
+pub(crate) fn sides_at(
+    mech: &Prepared,
+    state: &State,
+    linear: &Linear,
+    reach: Option<&DVector<f64>>,
+) -> Option<Sides> {
+    let Linear { units, pace, .. } = linear;
+    if mech.spec().switches.is_empty() {
+        return None;
+    }
+    let ways = Ways {
+        units,
+        pace: *pace,
+        along: &tangent(mech, state, units, *pace),
+    };
+    sides(mech, state, &ways, reach)
 }
 
 /// The [`modes`](modes()) about `state`, which is at rest or in a steady motion, or taken for that, and whether what none of them tells

@@ -103,6 +103,14 @@ impl Noise {
         pairs.for_each(|(out, c)| *out += c.bound());
     }
 
+    /// The rounding of the switching functions.
+    pub(crate) fn switching(&mut self, out: &mut [f64]) {
+        let mut values = vec![Rounded::exact(0.0); out.len()];
+        self.mechanism
+            .switching(self.t, &self.q, &self.v, &mut values);
+        bounds(&values, out);
+    }
+
     /// The rounding of A q̈ − b.
     pub(crate) fn motion(&mut self, acceleration: &[f64], out: &mut [f64]) {
         self.terms

@@ -52,12 +52,18 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
                     Stability::Stable => "stable",
                     Stability::Neutral => "neutral (some displacements cost nothing)",
                     Stability::Unstable => "not stable",
+                    Stability::Undecided => "stable or not: no linear motion tells",
                 };
                 (found.state, Some(stability.to_owned()))
             }
         }
     };
-    let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
+    // Where it rests is worth telling without a linear motion, too.
+    let (found, untold) = match modes_of(&ready.mechanism, &state) {
+        Ok(found) => (found, Ok(())),
+        Err(error @ Error::Kink { .. }) => (Vec::new(), Err(failed(error))),
+        Err(error) => return Err(failed(error)),
+    };
     output::to_stdout(|out| {
         place(out, &ready, &state, rests)?;
         limits(out, &ready, &state)?;
@@ -69,7 +75,8 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
         let told = (0..found.len()).filter(|k| !again(*k));
         told.map(|k| &found[k])
             .try_for_each(|mode| show(out, &ready, mode))
-    })
+    })?;
+    untold
 }
 
 /// Whether two modes have one shape, but for what is not shown of it.

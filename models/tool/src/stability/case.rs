@@ -346,6 +346,7 @@ fn kind(error: &Error) -> &'static str {
         Error::TooManySteps { .. } => "TooManySteps",
         Error::Chattering { .. } => "Chattering",
         Error::NoDirection { .. } => "NoDirection",
+        Error::Kink { .. } => "Kink",
         Error::Jump { .. } => "Jump",
         Error::Singular { .. } => "Singular",
         Error::DeadCentre { .. } => "DeadCentre",
