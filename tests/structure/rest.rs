@@ -1,6 +1,7 @@
 //! Rest positions, against statics.
 
 mod falls;
+mod feedback;
 mod idle;
 mod tops;
 

@@ -39,8 +39,9 @@ pub struct Equilibrium {
 pub enum Stability {
     /// All small displacements are driven back, and no vibration grows.
     Stable,
-    /// Some small displacements cost nothing, as that of a wheel on a plane, or are held by other forces than those of the stiffness; none
-    /// grows faster than in proportion to time, and no vibration grows, as far as a linear motion tells.
+    /// Some small displacements cost nothing, as that of a wheel on a plane, or are held by other forces than those of the stiffness, as
+    /// those of a sledge across its blade are; none grows faster than in proportion to time, and no vibration grows, as far as a linear
+    /// motion tells.
     Neutral,
     /// Some small displacements are driven on, faster than in proportion to time, or a vibration grows, be it in proportion to time.
     Unstable,
@@ -653,11 +654,16 @@ impl Search {
         stiffness: &DMatrix<f64>,
         linear: Option<Linear>,
     ) -> Result<Stability, Error> {
+        let (mut decays, mut stays) = (false, false);
         if let Some(linear) = linear {
             let (modes, grows) = linear_motion(&self.mech, &here.state, &linear)?;
             if grows || modes.iter().any(|mode| mode.growth > 0.0) {
                 return Ok(Stability::Unstable);
             }
+            decays = modes.iter().all(|mode| mode.growth < 0.0);
+            // Nonholonomic constraints let go of displacements that the stiffness does not see.
+            let spec = self.mech.spec();
+            stays = spec.holonomic < spec.m() && modes.iter().any(|mode| mode.size() == 0.0);
         }
         let largest = stiffness.amax();
         let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
@@ -674,9 +680,12 @@ impl Search {
                 let direction = curved.eigenvectors.column(softest).into_owned();
                 match self.turns(here, &direction, x) {
                     true => Stability::Unstable,
+                    false if stays => Stability::Neutral,
                     false => Stability::Stable,
                 }
             }
+            // Feedback may drive back what no symmetric stiffness does.
+            _ if told_by_modes && decays => Stability::Stable,
             // Other forces, or nonholonomic constraints, may hold what the stiffness drives on; that nothing grows has been seen.
             x if x >= -flat || told_by_modes => Stability::Neutral,
             _ => Stability::Unstable,
