@@ -23,6 +23,7 @@ use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
 
 mod potential;
+mod settled;
 mod way;
 
 /// A rest position.
@@ -92,13 +93,14 @@ const FLAT_BY_DIFFERENCES: f64 = 1e-8;
 /// position is one nearby, stable or not. It is a search in steps that goes down, not a motion: where ways from the guess lead to several
 /// bottoms it may end in another one than a damped motion does, and it steps over a bottom or a barrier that is narrow beside the
 /// coordinates, by which the longest steps are measured. A branch that comes as near to another one as 1e-4 of the coordinates
-/// counts as one that meets it. Coordinates named in `hold` keep the value of the guess, whatever force that takes; what becomes of
-/// displacements is then told by the stiffness alone.
+/// counts as one that meets it. Where a nonholonomic constraint has a part without velocities, as that of a current, the position is a
+/// nearby one at which this part vanishes, too, stable or not. Coordinates named in `hold` keep the value of the guess, whatever force that
+/// takes; what becomes of displacements is then told by the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
-/// - [`Error::InvalidSetting`] where constraints move with time, so that nothing rests, where no rest position is found, and where forces
-///   jump in the one that is: it says which coordinate is driven most where the search ends.
+/// - [`Error::InvalidSetting`] where constraints move with time, or by themselves, so that nothing rests, where no rest position is found,
+///   and where forces jump in the one that is: it says which coordinate is driven most where the search ends.
 pub fn equilibrium(
     mechanism: impl Into<Prepared>,
     guess: &State,
@@ -108,6 +110,7 @@ pub fn equilibrium(
     let held = held(mech.spec(), hold)?;
     let mut still = guess.clone();
     still.v.fill(0.0);
+    let still = settled::settled(&mech, still, &held)?;
     let mut driven = 0;
     for careful in [false, true] {
         let mut search = Search {
@@ -376,9 +379,15 @@ impl Search {
     fn place(&mut self, state: State) -> Result<Place, Error> {
         let mut state = assembled(&self.mech, &state, self.positions())?;
         if let Some(j) = state.v.iter().position(|v| *v != 0.0) {
+            state.v.fill(0.0);
             let name = self.mech.spec().coords[j];
-            let reason = format!("does not rest: constraints that change with time move `{name}`");
-            return Err(Error::invalid("guess", reason));
+            return Err(settled::moving(&self.mech, &state).map_or_else(
+                || {
+                    let what = "does not rest: constraints that change with time move";
+                    Error::invalid("guess", format!("{what} `{name}`"))
+                },
+                settled::moved_by,
+            ));
         }
         state.v.fill(0.0);
         let at = (state.t, &state.q[..], &state.v[..]);

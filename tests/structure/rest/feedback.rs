@@ -35,6 +35,25 @@ mechanisms! {
         force { a: kp * (goal - a) + ki * z - kd * dot(a) }
         nonholonomic { collect: dot(z) = goal - a }
     }
+    // A coil that draws a weight on a spring, and one on a rod that it turns.
+    Magnet {
+        params { u = 1.0, r = 2.0 }
+        coords { x, i }
+        mass { x: 0.1 }
+        potential { 50 * sq(x), 0.981 * x }
+        force { x: 0.5 * sq(i) / sq(1 + x) - dot(x) }
+        nonholonomic { coil: 0.1 * dot(i) = u - r * i }
+    }
+    Turned {
+        params { ke = 0.3, u = 0.5 }
+        coords { x, y, i }
+        mass { x: 1, y: 1 }
+        potential { 9.81 * y }
+        force { x: -ke * i * y - 0.2 * dot(x), y: ke * i * x }
+        holonomic { rod: sq(x) + sq(y) = 1 }
+        nonholonomic { circuit: 0.05 * dot(i) = u - i - ke * (x * dot(y) - y * dot(x)) }
+    }
+    Belt { coords { x, y } mass { x: 1, y: 1 } potential { sq(y) } nonholonomic { belt: dot(x) = 2 } }
     // An inflection of the potential, in oil.
     Inflection { coords { x } mass { x: 1 } potential { x.powi(3) } force { x: -3 * dot(x) } }
 }
@@ -102,4 +121,70 @@ fn a_shaft_that_stays_where_it_is_turned_to_is_not_stable() {
         };
         assert_eq!(stability(&held, &[0.0; 2]), expected, "{ki}");
     }
+}
+
+/// The part without velocities of the row has to vanish, too, from wherever the search begins.
+#[test]
+fn rows_with_a_part_without_velocities_come_to_rest() {
+    fn rests<M: Mechanism>(mechanism: &M, guess: &[f64], expected: &[f64], stability: Stability) {
+        let found = equilibrium(mechanism, &at_rest(guess), &[]);
+        let found = found.unwrap_or_else(|e| panic!("{} from {guess:?}: {e}", M::SPEC.name));
+        assert_all_close(M::SPEC.name, &found.state.q, expected, 1e-12);
+        assert_eq!(
+            found.stability,
+            stability,
+            "{} from {guess:?}",
+            M::SPEC.name
+        );
+        modes(mechanism, &found.state).unwrap_or_else(|e| panic!("{}: {e}", M::SPEC.name));
+    }
+    let controlled = Controlled::default();
+    let held = [1.0, 4.905 * 1.0_f64.sin() / controlled.ki];
+    for guess in [
+        held,
+        [1.0 + 1e-6, held[1]],
+        [1.0, 0.0],
+        [0.0; 2],
+        [-2.0, 5.0],
+    ] {
+        rests(&controlled, &guess, &held, Stable);
+    }
+    for current in [1.0, -3e4, 1e-9, 0.0] {
+        rests(&Motor::default(), &[0.7, current], &[0.7, 0.0], Neutral);
+        rests(
+            &Motor {
+                hold: 2.0,
+                ..Motor::default()
+            },
+            &[0.7, current],
+            &[0.0; 2],
+            Stable,
+        );
+    }
+    // 100 x + 0.981 = ½ i²/(1 + x)².
+    let mut x = 0.0;
+    for _ in 0..20 {
+        x = (0.125 / (1.0_f64 + x).powi(2) - 0.981) / 100.0;
+    }
+    for guess in [[0.0; 2], [0.3, 0.0], [0.1, -3.0]] {
+        rests(&Magnet::default(), &guess, &[x, 0.5], Stable);
+    }
+    // 9.81 sin = 0.15.
+    let sin = 0.15 / 9.81_f64;
+    let cos = (1.0 - sin * sin).sqrt();
+    for guess in [[0.0, -1.0, 0.0], [0.6, -0.7, 3.0]] {
+        rests(&Turned::default(), &guess, &[sin, -cos, 0.5], Stable);
+    }
+    rests(
+        &Turned::default(),
+        &[0.3, 0.9, 0.0],
+        &[sin, cos, 0.5],
+        Unstable,
+    );
+    let told = equilibrium(Belt::default(), &at_rest(&[0.0; 2]), &[]).expect_err("it runs");
+    let told = told.to_string();
+    assert!(
+        told.contains("`belt` asks for velocities") && !told.contains("time"),
+        "{told}"
+    );
 }
