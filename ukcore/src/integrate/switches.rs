@@ -20,7 +20,7 @@ mod dips;
 mod turn;
 
 pub(super) use dips::Seen;
-pub(super) use turn::Stuck;
+pub(super) use turn::{Stuck, on_by};
 
 /// Parts into which a step is divided in the search for sign changes.
 const PARTS: usize = 8;
@@ -62,8 +62,8 @@ pub(super) struct Switches {
     sizes: Vec<f64>,
     /// Up to where on the way each switch is followed, whatever its value is: it hovers at its zero, where y' has a kink at most.
     loose: Vec<f64>,
-    /// Where each switch was last turned, and how often it was before without getting away from there.
-    turned: Vec<(f64, usize)>,
+    /// When each switch was last turned.
+    turned: Vec<turn::Turned>,
     /// Distances into the branches at the start of a part of a step.
     before: Vec<f64>,
     state: Vec<f64>,
@@ -85,7 +85,7 @@ impl Switches {
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
-            turned: vec![(f64::NAN, 0); count],
+            turned: vec![turn::Turned::NEVER; count],
             before: vec![0.0; count],
             state: vec![0.0; n],
             dips: Vec::new(),

@@ -5,10 +5,9 @@ use crate::error::Error;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::sums::projection_norm;
-use crate::integrate::switches::{Leaving, Seen, Stuck};
+use crate::integrate::switches::{Leaving, Seen, Stuck, on_by};
 use crate::integrate::{Next, PROJECTION_LIMIT, Problem};
 use crate::mechanism::Branch;
-use crate::scan::axpy;
 
 /// Constraints that ask for other velocities beside the zero of a switch than in the branch before, and by no more than this share of that
 /// at the zero, and than any step may be projected by, do so for being beside it.
@@ -287,13 +286,4 @@ fn moving(problem: &mut dyn Problem, at: Sample<'_>, acceleration: &[f64]) -> [V
     problem.switching(at, &mut values);
     problem.switching_rate(at, acceleration, &mut rates);
     [values, rates]
-}
-
-/// The state that a motion in `y` goes on to in a time, with these accelerations.
-fn on_by(time: f64, y: &[f64], acceleration: &[f64]) -> Vec<f64> {
-    let n = acceleration.len();
-    let mut on = y.to_vec();
-    axpy(time, &y[n..], &mut on[..n]);
-    axpy(time, acceleration, &mut on[n..]);
-    on
 }

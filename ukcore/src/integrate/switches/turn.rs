@@ -15,6 +15,26 @@ const FOLLOWED: f64 = 10.0;
 const KINK: f64 = 1e-6;
 const LESS: f64 = 0.1;
 
+/// A function that gets to zero within this part of a step was put on the other side of it by an error.
+const AWAKE: f64 = 1e-3;
+
+/// Where and in which step a switch was last turned, and how often it was before without getting away from its zero.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turned {
+    s: f64,
+    step: usize,
+    times: usize,
+}
+
+impl Turned {
+    /// That of a switch that was not yet.
+    pub(super) const NEVER: Turned = Turned {
+        s: f64::NAN,
+        step: 0,
+        times: 0,
+    };
+}
+
 /// Switches whose functions the motion drives back to zero in either branch: no step leads away from there.
 pub(in crate::integrate) struct Stuck(pub(in crate::integrate) Vec<usize>);
 
@@ -63,6 +83,32 @@ impl Equations<'_> {
         }
     }
 
+    /// Functions that were zero all along in the branches of others, and are no longer, go where they move from there, whichever side of zero
+    /// an error of a step has put them on.
+    fn wake(&mut self, before: &[f64], after: &[f64], y: &[f64]) {
+        let asleep = |k: &usize| {
+            let all = &self.switches;
+            all.branches[*k] == Branch::Followed && all.loose[*k].is_nan() && before[*k] == 0.0
+        };
+        let awake: Vec<usize> = (0..after.len()).filter(asleep).collect();
+        let awake: Vec<usize> = awake.into_iter().filter(|k| after[*k] != 0.0).collect();
+        let (along, soon) = (self.course.along, AWAKE * self.course.h.abs());
+        let back = self.moving(&awake, y, |k, _, rate| {
+            along * rate * after[k] < 0.0 && after[k].abs() < soon * rate.abs()
+        });
+        for k in awake {
+            let up = (after[k] > 0.0) != back.contains(&k);
+            self.set(
+                k,
+                if up {
+                    Branch::Positive
+                } else {
+                    Branch::Negative
+                },
+            );
+        }
+    }
+
     /// The functions at this state, in the branches held.
     fn values(&mut self, y: &[f64]) -> Vec<f64> {
         let at = self.at(self.course.now.s, y);
@@ -91,6 +137,7 @@ impl Equations<'_> {
                 let none: Vec<usize> = (0..after.len()).filter(none).collect();
                 let none = self.at_rest(&none, y);
                 none.iter().for_each(|k| self.set(*k, Branch::Followed));
+                self.wake(&before, &after, y);
                 return;
             }
             self.turn_over(&jumped);
@@ -200,23 +247,39 @@ impl Equations<'_> {
     }
 
     /// `switches` are turned at this state, within a step of size `h`: those that come back to their zeros again and again, within a small
-    /// part of steps, and where y' has a kink at most, are followed for a while. Returns whether there are any.
+    /// part of steps or with nothing in their other branches meanwhile, and where y' has a kink at most, are followed for a while. Returns
+    /// whether there are any.
     pub(in crate::integrate) fn hover(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
-        let s = self.course.now.s;
+        let (s, step) = (self.course.now.s, self.course.steps);
         let mut often = Vec::new();
         for k in switches {
-            let (last, times) = &mut self.switches.turned[*k];
-            *times = if (s - *last).abs() <= HOVERING * h.abs() {
-                *times + 1
-            } else {
-                0
-            };
-            *last = s;
-            if *times >= TURNS {
+            let turned = self.switches.turned[*k];
+            let back = s - turned.s;
+            // (Each of several that do so is turned once in as many steps.)
+            let soon = step <= turned.step + 2 * self.switches.branches.len();
+            let hovers = back.abs() <= HOVERING * h.abs()
+                || back.is_finite() && soon && self.made_nothing(*k, 0.5 * back, y);
+            let times = if hovers { turned.times + 1 } else { 0 };
+            self.switches.turned[*k] = Turned { s, step, times };
+            if times >= TURNS {
                 often.push(*k);
             }
         }
         !often.is_empty() && self.loosen(&often, h, y)
+    }
+
+    /// Whether accelerations were the same in both branches of switch k so long before this state.
+    fn made_nothing(&mut self, k: usize, back: f64, y: &[f64]) -> bool {
+        let mut acceleration = vec![0.0; y.len() / 2];
+        if self
+            .acceleration(self.course.now.s, y, &mut acceleration)
+            .is_err()
+        {
+            return false;
+        }
+        let before = on_by(-back, y, &acceleration);
+        let sides = self.sides(&[k], &before);
+        sides.is_some_and(|sides| jump(&sides) <= KINK * size(&sides))
     }
 
     /// Follows `switches` for some steps of size `h`, if y' has a kink at most at their zeros, which are at this state. Returns whether it
@@ -235,32 +298,10 @@ impl Equations<'_> {
 
     /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
     fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
-        let n = y.len() / 2;
-        let held = (self.switches.branches.clone(), self.switches.levels.clone());
-        let sides = |own: &mut Self, y: &[f64]| -> Option<[Vec<f64>; 2]> {
-            let mut side = |branch: Branch| {
-                own.set_branch(switches, branch, y);
-                let mut side = vec![0.0; n];
-                let told = own.acceleration(own.course.now.s, y, &mut side).is_ok();
-                (0..held.0.len()).for_each(|k| own.set(k, held.0[k]));
-                own.switches.levels.clone_from(&held.1);
-                told.then_some(side)
-            };
-            Some([side(Branch::Negative)?, side(Branch::Positive)?])
-        };
-        let jump = |sides: &[Vec<f64>; 2]| {
-            let size = sides
-                .iter()
-                .flatten()
-                .fold(0.0_f64, |most, a| most.max(a.abs()));
-            let jump = sides[0].iter().zip(&sides[1]).map(|(a, b)| (a - b).abs());
-            (jump.fold(0.0_f64, f64::max), size)
-        };
-        let Some(here) = sides(self, y) else {
+        let Some(here) = self.sides(switches, y) else {
             return false;
         };
-        let (most, size) = jump(&here);
-        if most <= KINK * size {
+        if jump(&here) <= KINK * size(&here) {
             return true;
         }
         // What is left of it nearer to the zeros.
@@ -269,22 +310,32 @@ impl Equations<'_> {
         let sample = self.at(self.course.now.s, y);
         self.problem.switching_rate(sample, &here[0], &mut rates);
         let late = switches.iter().map(|k| -values[*k] / rates[*k]);
-        let late = late
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
-            .unwrap_or(0.0);
-        if !late.is_finite() {
+        let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let Some(late) = late.filter(|late| late.is_finite()) else {
             return false;
-        }
-        let mut zero = y.to_vec();
-        axpy(late, &y[n..], &mut zero[..n]);
-        axpy(late, &here[0], &mut zero[n..]);
-        sides(self, &zero).is_some_and(|there| jump(&there).0 <= LESS * most)
+        };
+        let there = self.sides(switches, &on_by(late, y, &here[0]));
+        there.is_some_and(|there| jump(&there) <= LESS * jump(&here))
+    }
+
+    /// Accelerations at this state in both branches of `switches`.
+    fn sides(&mut self, switches: &[usize], y: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let held = (self.switches.branches.clone(), self.switches.levels.clone());
+        let mut side = |branch: Branch| {
+            self.set_branch(switches, branch, y);
+            let mut side = vec![0.0; y.len() / 2];
+            let told = self.acceleration(self.course.now.s, y, &mut side).is_ok();
+            (0..held.0.len()).for_each(|k| self.set(k, held.0[k]));
+            self.switches.levels.clone_from(&held.1);
+            told.then_some(side)
+        };
+        Some([side(Branch::Negative)?, side(Branch::Positive)?])
     }
 
     /// The switches among these whose functions leave the branches they are in.
     fn driven_out(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         let along = self.course.along;
-        self.moving(switches, y, |branch, rate| {
+        self.moving(switches, y, |_, branch, rate| {
             along * branch.sign() * rate < 0.0
         })
     }
@@ -309,16 +360,16 @@ impl Equations<'_> {
 
     /// The switches among these whose functions stay as they are.
     fn at_rest(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
-        self.moving(switches, y, |_, rate| rate == 0.0)
+        self.moving(switches, y, |_, _, rate| rate == 0.0)
     }
 
-    /// The switches among these for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
-    /// value.
+    /// The switches among these for which `which` of them, their branch and the rate of their function holds at this state; none where q̈
+    /// has no value.
     fn moving(
         &mut self,
         switches: &[usize],
         y: &[f64],
-        which: impl Fn(Branch, f64) -> bool,
+        which: impl Fn(usize, Branch, f64) -> bool,
     ) -> Vec<usize> {
         let s = self.course.now.s;
         let at = self.at(s, y);
@@ -330,6 +381,31 @@ impl Equations<'_> {
         let mut rates = vec![0.0; branches.len()];
         self.problem.switching_rate(at, &acceleration, &mut rates);
         let found = switches.iter().copied();
-        found.filter(|k| which(branches[*k], rates[*k])).collect()
+        found
+            .filter(|k| which(*k, branches[*k], rates[*k]))
+            .collect()
     }
+}
+
+/// The largest difference of two accelerations.
+fn jump([a, b]: &[Vec<f64>; 2]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// The largest of two accelerations.
+fn size(sides: &[Vec<f64>; 2]) -> f64 {
+    sides
+        .iter()
+        .flatten()
+        .fold(0.0, |most, a| most.max(a.abs()))
+}
+
+/// The state that a motion in `y` goes on to in a time, with these accelerations.
+pub(in crate::integrate) fn on_by(time: f64, y: &[f64], acceleration: &[f64]) -> Vec<f64> {
+    let n = acceleration.len();
+    let mut on = y.to_vec();
+    axpy(time, &y[n..], &mut on[..n]);
+    axpy(time, acceleration, &mut on[n..]);
+    on
 }
