@@ -17,10 +17,12 @@ use crate::mechanism::Branch;
 use crate::zero::locate;
 
 mod dips;
+mod hover;
 mod turn;
 
 pub(super) use dips::Seen;
-pub(super) use turn::{Stuck, on_by};
+pub(super) use hover::on_by;
+pub(super) use turn::Stuck;
 
 /// Parts into which a step is divided in the search for sign changes.
 const PARTS: usize = 8;
@@ -63,7 +65,7 @@ pub(super) struct Switches {
     /// Up to where on the way each switch is followed, whatever its value is: it hovers at its zero, where y' has a kink at most.
     loose: Vec<f64>,
     /// When each switch was last turned.
-    turned: Vec<turn::Turned>,
+    turned: Vec<hover::Turned>,
     /// Distances into the branches at the start of a part of a step.
     before: Vec<f64>,
     state: Vec<f64>,
@@ -85,7 +87,7 @@ impl Switches {
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
-            turned: vec![turn::Turned::NEVER; count],
+            turned: vec![hover::Turned::NEVER; count],
             before: vec![0.0; count],
             state: vec![0.0; n],
             dips: Vec::new(),

@@ -1,0 +1,145 @@
+//! Switches that come back to their zeros again and again, though nothing turns there: contacts that touch, ropes that are neither taut nor
+//! slack. Where accelerations have a kink at most, the error of a step tells what becomes of it, and they are followed for a while.
+
+use crate::integrate::scheme::Equations;
+use crate::mechanism::Branch;
+use crate::scan::axpy;
+
+/// A switch that is turned so often, each time within this part of a step from where it was before, hovers at its zero, and is followed
+/// for as many steps.
+const TURNS: usize = 4;
+const HOVERING: f64 = 1e-3;
+const FOLLOWED: f64 = 10.0;
+
+/// Accelerations that differ by less than this share between the branches of a switch at its zero have a kink there at most; or that
+/// differ by less of what they do little off it.
+const KINK: f64 = 1e-6;
+const LESS: f64 = 0.1;
+
+/// Where and in which step a switch was last turned, and how often it was before without getting away from its zero.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turned {
+    s: f64,
+    step: usize,
+    times: usize,
+}
+
+impl Turned {
+    /// That of a switch that was not yet.
+    pub(super) const NEVER: Turned = Turned {
+        s: f64::NAN,
+        step: 0,
+        times: 0,
+    };
+}
+
+impl Equations<'_> {
+    /// `switches` are turned at this state, within a step of size `h`: those that come back to their zeros again and again, within a small
+    /// part of steps or with nothing in their other branches meanwhile, and where y' has a kink at most, are followed for a while. Returns
+    /// whether there are any.
+    pub(in crate::integrate) fn hover(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
+        let (s, step) = (self.course.now.s, self.course.steps);
+        let mut often = Vec::new();
+        for k in switches {
+            let turned = self.switches.turned[*k];
+            let back = s - turned.s;
+            // (Each of several that do so is turned once in as many steps.)
+            let soon = step <= turned.step + 2 * self.switches.branches.len();
+            let hovers = back.abs() <= HOVERING * h.abs()
+                || back.is_finite() && soon && self.made_nothing(*k, 0.5 * back, y);
+            let times = if hovers { turned.times + 1 } else { 0 };
+            self.switches.turned[*k] = Turned { s, step, times };
+            if times >= TURNS {
+                often.push(*k);
+            }
+        }
+        !often.is_empty() && self.loosen(&often, h, y)
+    }
+
+    /// Whether accelerations were the same in both branches of switch k so long before this state.
+    fn made_nothing(&mut self, k: usize, back: f64, y: &[f64]) -> bool {
+        let mut acceleration = vec![0.0; y.len() / 2];
+        if self
+            .acceleration(self.course.now.s, y, &mut acceleration)
+            .is_err()
+        {
+            return false;
+        }
+        let before = on_by(-back, y, &acceleration);
+        let sides = self.sides(&[k], &before);
+        sides.is_some_and(|sides| jump(&sides) <= KINK * size(&sides))
+    }
+
+    /// Follows `switches` for some steps of size `h`, if y' has a kink at most at their zeros, which are at this state. Returns whether it
+    /// does.
+    pub(in crate::integrate) fn loosen(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
+        if !self.is_smooth(switches, y) {
+            return false;
+        }
+        let until = self.course.now.s + FOLLOWED * h;
+        for k in switches {
+            self.set(*k, Branch::Followed);
+            self.switches.loose[*k] = until;
+        }
+        true
+    }
+
+    /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
+    fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
+        let Some(here) = self.sides(switches, y) else {
+            return false;
+        };
+        if jump(&here) <= KINK * size(&here) {
+            return true;
+        }
+        // What is left of it nearer to the zeros.
+        let values = self.values(y);
+        let mut rates = values.clone();
+        let sample = self.at(self.course.now.s, y);
+        self.problem.switching_rate(sample, &here[0], &mut rates);
+        let late = switches.iter().map(|k| -values[*k] / rates[*k]);
+        let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let Some(late) = late.filter(|late| late.is_finite()) else {
+            return false;
+        };
+        let there = self.sides(switches, &on_by(late, y, &here[0]));
+        there.is_some_and(|there| jump(&there) <= LESS * jump(&here))
+    }
+
+    /// Accelerations at this state in both branches of `switches`.
+    fn sides(&mut self, switches: &[usize], y: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let held = (self.switches.branches.clone(), self.switches.levels.clone());
+        let mut side = |branch: Branch| {
+            self.set_branch(switches, branch, y);
+            let mut side = vec![0.0; y.len() / 2];
+            let told = self.acceleration(self.course.now.s, y, &mut side).is_ok();
+            (0..held.0.len()).for_each(|k| self.set(k, held.0[k]));
+            self.switches.levels.clone_from(&held.1);
+            told.then_some(side)
+        };
+        Some([side(Branch::Negative)?, side(Branch::Positive)?])
+    }
+}
+
+/// The largest difference of two accelerations.
+fn jump([a, b]: &[Vec<f64>; 2]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// The largest of two accelerations.
+fn size(sides: &[Vec<f64>; 2]) -> f64 {
+    sides
+        .iter()
+        .flatten()
+        .fold(0.0, |most, a| most.max(a.abs()))
+}
+
+/// The state that a motion in `y` goes on to in a time, with these accelerations.
+pub(in crate::integrate) fn on_by(time: f64, y: &[f64], acceleration: &[f64]) -> Vec<f64> {
+    let n = acceleration.len();
+    let mut on = y.to_vec();
+    axpy(time, &y[n..], &mut on[..n]);
+    axpy(time, acceleration, &mut on[n..]);
+    on
+}
