@@ -22,6 +22,8 @@ pub(super) struct Turned {
     s: f64,
     step: usize,
     times: usize,
+    /// How often that is to be to ask if it hovers.
+    enough: usize,
 }
 
 impl Turned {
@@ -30,6 +32,7 @@ impl Turned {
         s: f64::NAN,
         step: 0,
         times: 0,
+        enough: TURNS,
     };
 }
 
@@ -41,17 +44,35 @@ impl Equations<'_> {
         let (s, step) = (self.course.now.s, self.course.steps);
         let mut often = Vec::new();
         for k in switches {
-            let turned = self.switches.turned[*k];
-            let back = s - turned.s;
+            let last = self.switches.turned[*k];
+            let back = s - last.s;
+            let near = back.abs() <= HOVERING * h.abs();
             // (Each of several that do so is turned once in as many steps.)
-            let soon = step <= turned.step + 2 * self.switches.branches.len();
-            let hovers = back.abs() <= HOVERING * h.abs()
-                || back.is_finite() && soon && self.made_nothing(*k, 0.5 * back, y);
-            let times = if hovers { turned.times + 1 } else { 0 };
-            self.switches.turned[*k] = Turned { s, step, times };
-            if times >= TURNS {
-                often.push(*k);
-            }
+            let soon = step <= last.step + 2 * self.switches.branches.len();
+            let times = if near || soon && back.is_finite() {
+                last.times + 1
+            } else {
+                0
+            };
+            let turned = Turned {
+                s,
+                step,
+                times,
+                ..last
+            };
+            self.switches.turned[*k] = match times < turned.enough {
+                true => turned,
+                false if near || self.made_nothing(*k, 0.5 * back, y) => {
+                    often.push(*k);
+                    turned
+                }
+                // It is asked seldom of what goes far.
+                false => Turned {
+                    times: 0,
+                    enough: 2 * turned.enough,
+                    ..turned
+                },
+            };
         }
         !often.is_empty() && self.loosen(&often, h, y)
     }

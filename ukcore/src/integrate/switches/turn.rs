@@ -100,7 +100,8 @@ impl Equations<'_> {
             let jumped: Vec<usize> = (0..after.len()).filter(jumped).collect();
             if jumped.is_empty() {
                 let held = |k: &usize| self.switches.branches[*k] != Branch::Followed;
-                let none = |k: &usize| after[*k] == 0.0 && held(k);
+                // (At the start of a run they are asked about by themselves.)
+                let none = |k: &usize| self.course.steps > 0 && after[*k] == 0.0 && held(k);
                 let none: Vec<usize> = (0..after.len()).filter(none).collect();
                 let none = self.at_rest(&none, y);
                 none.iter().for_each(|k| self.set(*k, Branch::Followed));
