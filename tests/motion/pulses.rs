@@ -1,7 +1,7 @@
 //! Forces that are switched on and off more often than steps are long, by the time or by an angle that turns fast: pulses, square waves,
 //! duty cycles; and switches that depend on the sign of another.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use tests::{apart, at, largest};
 use ukcore::{Mechanism, Method, Simulation, State};
@@ -45,6 +45,34 @@ ukcore::multibody! {
             x: g + max(-u, min(u, k * (1.0 + sq(x)) * sign(dot(x)))),
             y: g + u * sign(k * sign(dot(y)) + 0.1),
             z: g + max(-u, min(u, 2.0 * max(-1.0, min(1.0, k * sign(dot(z)))))),
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A brake that only brakes, within limits that turn with the velocity that it acts against; signs that jump as they get to zero.
+    Turning {
+        params { l = 0.5 }
+        coords { x, brake, y, s, z }
+        mass { x: 1.0, brake: 1.0, y: 1.0, s: 1.0, z: 1.0 }
+        force {
+            x: -x,
+            brake: max(-l - l * sign(dot(x)), min(l - l * sign(dot(x)), -2.0 * dot(x))),
+            s: sign(y + 0.5 * sign(z)),
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Pushes at places on the way of a body that moves evenly: behind a way where their function has no value, between poles and places
+    /// where it touches its zero.
+    Places {
+        coords { x, a, b, c }
+        mass { x: 1.0, a: 1.0, b: 1.0, c: 1.0 }
+        force {
+            a: max(0.0, 0.001 * sqrt(sq(x) - 1.0) + 0.01 - sq(x - 9.0)),
+            b: max(0.0, 0.01 - sq(x - 9.0) - 1e-4 / sq(sin(x))),
+            c: max(0.0, -sq(sin(3.0 * x)) * (sq(x - 30.0) - 1.0)),
         }
     }
 }
@@ -193,4 +221,56 @@ fn a_limit_turns_with_the_sign_that_it_limits() {
         until,
         &end,
     );
+}
+
+#[test]
+fn what_turns_with_another_at_one_zero_is_where_it_has_jumped_to() {
+    // The brake is what clamps 2 sin t to 1.
+    let brake = 2.0 * (1.0 - 0.75_f64.sqrt()) + PI / 3.0;
+    for side in [1.0, -1.0] {
+        let q = [1.0, 0.0, 1.5 * side, 0.0, -side];
+        let v = [0.0, 0.0, -side, 0.0, side];
+        for method in METHODS {
+            for tolerance in TOLERANCES {
+                let run = Simulation::new(Turning::default())
+                    .start(at(&q, &v))
+                    .method(method)
+                    .tolerance(tolerance);
+                let run = run.until(1.5 * PI).expect("nothing sticks");
+                let end = run.last().expect("an end");
+                // y falls through 1/2 at 1 s, as z rises, and through −1/2 at 2 s.
+                let sign = side * (4.0 - 1.5 * PI);
+                let off = apart(&[end.v[1], end.v[3]], &[brake, sign]);
+                assert!(
+                    off < 1e2 * tolerance,
+                    "{method}, {tolerance:e}: off by {off:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn places_without_a_value_and_poles_hide_no_others() {
+    for from in [-20.0, -3.0] {
+        let start = at(&[from, 0.0, 0.0, 0.0], &[1.0, 0.0, 0.0, 0.0]);
+        let run = |method, tolerance, step| {
+            let run = Simulation::new(Places::default())
+                .start(start.clone())
+                .method(method);
+            let run = run.tolerance(tolerance).max_step(step).until(60.0);
+            let run = run.expect("it is pushed");
+            run.last().expect("an end").v[1..].to_vec()
+        };
+        let exact = run(Method::Dop853, 1e-10, 5e-3);
+        for method in METHODS {
+            for tolerance in [1e-4, 1e-8] {
+                let off = apart(&run(method, tolerance, 1e3), &exact);
+                assert!(
+                    off < 1e2 * tolerance,
+                    "{from}, {method}, {tolerance:e}: off by {off:e}"
+                );
+            }
+        }
+    }
 }
