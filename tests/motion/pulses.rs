@@ -80,6 +80,16 @@ ukcore::multibody! {
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
+ukcore::multibody! {
+    /// A free body that a rectified sine pushes.
+    Rectified {
+        params { w = 50.0 }
+        coords { x }
+        mass { x: 1.0 }
+        force { x: abs(sin(w * t)) }
+    }
+}
+
 /// Runs by all methods end where `end` says.
 #[track_caller]
 fn check<M: Mechanism>(what: &str, mechanism: &M, start: &State, until: f64, end: &[f64]) {
@@ -272,5 +282,23 @@ fn places_without_a_value_and_poles_hide_no_others() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn a_rectified_sine_turns_at_each_half_turn() {
+    for w in [3.0, 15.0, 64.0, 500.0] {
+        // After n half turns: the velocity is that of n halves of a sine, whose mean it has been.
+        let rectified = Rectified { w };
+        let (half, count) = (PI / w, (2.0 * w / PI).floor());
+        let v = 2.0 * count / w;
+        let end = [0.5 * v * half * count, v];
+        check(
+            &format!("{w} rad/s"),
+            &rectified,
+            &at(&[0.0], &[0.0]),
+            half * count,
+            &end,
+        );
     }
 }

@@ -27,7 +27,7 @@ const LEAST: f64 = 1e-9;
 
 /// Parts of a step in which the bounds of a function are sought. They are wide of one whose terms all but cancel along the motion: where
 /// they do not tell in so many, it is looked at in places in the next steps, each time in twice as many as before.
-const PARTS: usize = 96;
+const PARTS: usize = 256;
 const MOST_SKIPPED: usize = 255;
 
 /// Places at which a function is looked at where its bounds do not tell, and the extrema between them up to which they show where these

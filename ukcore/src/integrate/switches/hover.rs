@@ -1,6 +1,7 @@
 //! Switches that come back to their zeros again and again, though nothing turns there: contacts that touch, ropes that are neither taut nor
 //! slack. Where accelerations have a kink at most, the error of a step tells what becomes of it, and they are followed for a while.
 
+use crate::integrate::course::Place;
 use crate::integrate::scheme::Equations;
 use crate::mechanism::Branch;
 use crate::scan::axpy;
@@ -87,7 +88,7 @@ impl Equations<'_> {
             return false;
         }
         let before = on_by(-back, y, &acceleration);
-        let sides = self.sides(&[k], &before);
+        let sides = self.sides(&[k], -back, &before);
         sides.is_some_and(|sides| jump(&sides) <= KINK * size(&sides))
     }
 
@@ -107,7 +108,7 @@ impl Equations<'_> {
 
     /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
     fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
-        let Some(here) = self.sides(switches, y) else {
+        let Some(here) = self.sides(switches, 0.0, y) else {
             return false;
         };
         if jump(&here) <= KINK * size(&here) {
@@ -123,22 +124,30 @@ impl Equations<'_> {
         let Some(late) = late.filter(|late| late.is_finite()) else {
             return false;
         };
-        let there = self.sides(switches, &on_by(late, y, &here[0]));
+        let there = self.sides(switches, late, &on_by(late, y, &here[0]));
         there.is_some_and(|there| jump(&there) <= LESS * jump(&here))
     }
 
-    /// Accelerations at this state in both branches of `switches`.
-    fn sides(&mut self, switches: &[usize], y: &[f64]) -> Option<[Vec<f64>; 2]> {
+    /// Accelerations in both branches of `switches` at a state so much later than where the run stands.
+    fn sides(&mut self, switches: &[usize], by: f64, y: &[f64]) -> Option<[Vec<f64>; 2]> {
         let held = (self.switches.branches.clone(), self.switches.levels.clone());
+        let now = self.course.now;
+        let (s, t) = (now.s + by, now.t + by);
+        self.course.now = Place { s, t };
         let mut side = |branch: Branch| {
             self.set_branch(switches, branch, y);
             let mut side = vec![0.0; y.len() / 2];
-            let told = self.acceleration(self.course.now.s, y, &mut side).is_ok();
+            let told = self.acceleration(s, y, &mut side).is_ok();
             (0..held.0.len()).for_each(|k| self.set(k, held.0[k]));
             self.switches.levels.clone_from(&held.1);
             told.then_some(side)
         };
-        Some([side(Branch::Negative)?, side(Branch::Positive)?])
+        let sides = [side(Branch::Negative), side(Branch::Positive)];
+        self.course.now = now;
+        let [Some(negative), Some(positive)] = sides else {
+            return None;
+        };
+        Some([negative, positive])
     }
 }
 
