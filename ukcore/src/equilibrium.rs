@@ -16,14 +16,15 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::manifold::{At, Level};
 use crate::mechanism::{Evaluated, Prepared};
-use crate::modes::{Linear, is_symmetric, linear_motion, sides_at, steady};
+use crate::modes::{Linear, steady};
 use crate::naming::undirected;
-use crate::noise::Noise;
 use crate::solver::{Solver, SolverOptions};
 use crate::spectrum;
 
 mod potential;
+mod resting;
 mod settled;
+mod verdict;
 mod way;
 
 /// A rest position.
@@ -62,15 +63,6 @@ const DIFFERENCE: f64 = 1e-6;
 const BALANCED: f64 = 1e-12;
 /// A displacement below this part of the coordinates on the way leads nowhere.
 const NOWHERE: f64 = 1e-12;
-/// So far aside, as a part of the coordinates, a stiffness is looked at once more: farther than the search ends beside the place, and near.
-const ASIDE: f64 = 1e-9;
-/// Forces jump by this share of themselves at the zero of a switch, or keep this share of their parts and of what they are at the guess,
-/// more than the stiffness makes of so many roundings of coordinates.
-const JUMP: f64 = 1e-6;
-const LEFT: f64 = 0.1;
-const ROUNDINGS: f64 = 16.0;
-/// Where a search ends its place is known to so many times the next step.
-const LEFT_OVER: f64 = 2.0;
 /// A moment, in units of the time; and the share of what b changes by in it that is its rounding.
 const MOMENT: f64 = 1e-6;
 /// This part of the coordinates is near the place where forces vanish, if a stiffness fades towards it, as that of x⁴ at 0.
@@ -84,9 +76,10 @@ const MET: f64 = 1e-4;
 /// A stiffness below this part of the largest one may be none, where this part of what the largest one gives is to be gained along it.
 const WEAK: f64 = 1e-2;
 const GAINED: f64 = 0.1;
-/// A stiffness below this part of the largest one is rounding; with coordinates held, of its differences.
+/// A stiffness below this part of the largest one is rounding.
 const FLAT: f64 = 1e-13;
-const FLAT_BY_DIFFERENCES: f64 = 1e-8;
+/// So many roundings of coordinates, or of forces, may be all that is left of these.
+const ROUNDINGS: f64 = 16.0;
 
 /// A rest position of `mechanism` downhill of `guess`, or where that is, on the constraints at its time, in the branch of these in which it
 /// is. Downhill the potential falls that all forces have but those that vanish at rest; where others act, as a weight under `force`, the
@@ -532,195 +525,6 @@ impl Search {
         }
         Ok(out)
     }
-
-    /// Refuses a place where forces jump, as at the kink of a potential or the apex of a constraint: there is no stiffness. That is so
-    /// where forces are left that neither rounding nor the stiffness explains, and where the stiffness is so large that `firm`, which the
-    /// search has met, is nothing beside it.
-    fn is_smooth(
-        &mut self,
-        here: &Place,
-        step: &DVector<f64>,
-        stiffness: &DMatrix<f64>,
-        (first, firm): (f64, f64),
-    ) -> Result<(), Error> {
-        let rounding = self.rounding(&here.state);
-        let unexplained = is_unexplained(here, stiffness, first, &rounding).ok_or_else(unfound)?;
-        let unbalanced = stiffness.amax() * f64::EPSILON > firm
-            || unexplained && !self.is_linear(here, step, stiffness);
-        let beside = unbalanced.then(|| here.push.icamax());
-        let Some(coordinate) = self.jump(&here.state, &here.units, &rounding).or(beside) else {
-            return Ok(());
-        };
-        let reason = format!(
-            "leads to where the force on `{}` jumps, as at a kink of the potential or an apex of a constraint: no stiffness tells what becomes \
-             of small displacements; give another guess, or hold coordinates",
-            self.mech.spec().coords[coordinate]
-        );
-        Err(Error::invalid("guess", reason))
-    }
-
-    /// What rounding makes of the forces at a state, more at most.
-    fn rounding(&self, State { t, q, v }: &State) -> DVector<f64> {
-        let mut rounding = vec![0.0; q.len()];
-        let mut noise = Noise::new(&self.mech);
-        noise.go(&self.mech, *t, [q, v], |_| [0.0; 2]);
-        noise.force(&mut rounding);
-        DVector::from_vec(rounding) * (ROUNDINGS * f64::EPSILON)
-    }
-
-    /// Whether the forces beyond `step` are those that the stiffness makes of the ones here, so that they vanish between.
-    fn is_linear(&mut self, here: &Place, step: &DVector<f64>, stiffness: &DMatrix<f64>) -> bool {
-        let there = self.displaced(here, &here.displacement(step), 2.0);
-        there.is_ok_and(|there| {
-            let expected = &here.force - stiffness * step * 2.0;
-            (here.basis.tr_mul(&there.push) - expected).norm() <= LEFT * here.force.norm()
-        })
-    }
-
-    /// The coordinate on which forces differ most between both sides of a switch that is zero at a state of rest, if they do.
-    fn jump(
-        &self,
-        State { t, q, v }: &State,
-        units: &DVector<f64>,
-        rounding: &DVector<f64>,
-    ) -> Option<usize> {
-        let (mech, spec) = (&self.mech, self.mech.spec());
-        // Those of velocities, as of dry friction, are zero wherever it rests.
-        let [still, moved] = [&v[..], units.as_slice()].map(|v| mech.switches_at(*t, q, v));
-        let mut zeros = (0..still.len()).filter(|k| still[*k] == 0.0 && moved[*k] == 0.0);
-        zeros.find_map(|k| {
-            let [one, other] = mech.on_both_sides(k).map(|held| {
-                let mut terms = Evaluated::new(spec.n(), spec.m());
-                terms.dynamics(&held, *t, q, v);
-                DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal)
-            });
-            let least = JUMP * one.amax().max(other.amax());
-            let change =
-                (one - other).zip_map(
-                    rounding,
-                    |change, rounding| {
-                        if change.abs() > rounding { change } else { 0.0 }
-                    },
-                );
-            (change.amax() > least).then(|| change.icamax())
-        })
-    }
-
-    /// Whether the stiffness along `direction`, `here` positive, turns negative a little aside: at an inflection of the potential, as x³
-    /// has it at 0, the search ends on the side from which it comes.
-    fn turns(&mut self, here: &Place, direction: &DVector<f64>, stiffness: f64) -> bool {
-        let change = here.displacement(direction);
-        [ASIDE, -ASIDE].into_iter().any(|share| {
-            let there = self.displaced(here, &change, share * self.size);
-            let aside = there.and_then(|there| self.stiffness(&there));
-            aside.is_ok_and(|k| (direction.transpose() * k * direction)[0] < -stiffness)
-        })
-    }
-
-    /// What becomes of small displacements, also where switches are zero, as far as `step` tells where the search ends.
-    fn verdict(
-        &mut self,
-        here: &Place,
-        step: &DVector<f64>,
-        stiffness: DMatrix<f64>,
-        linear: Option<Linear>,
-    ) -> Result<Stability, Error> {
-        let reach = LEFT_OVER * here.displacement(step).abs();
-        let mech = &self.mech;
-        let at = |linear: &Linear| sides_at(mech, &here.state, linear, Some(&reach));
-        let Some(sides) = linear.as_ref().and_then(at) else {
-            return self.stability(here, &stiffness, linear);
-        };
-        // Where there is no linear motion on some side none tells.
-        let mut verdicts = Vec::new();
-        let most = sides.kink.as_ref().map_or(1, |_| sides.held.len());
-        for held in &sides.held[..most] {
-            let motion = Linear::at(held, &here.state);
-            let motion = motion.and_then(|linear| Ok((here.stiffness_of(held)?, linear)));
-            verdicts.push(match motion {
-                Ok((stiffness, linear)) => self.stability(here, &stiffness, Some(linear))?,
-                Err(_) => Stability::Undecided,
-            });
-        }
-        let first = verdicts[0];
-        let Some(kink) = &sides.kink else {
-            return Ok(first);
-        };
-        let spec = self.mech.spec();
-        let by_potential = self.conservative && spec.holonomic == spec.m();
-        let alike = verdicts.iter().all(|verdict| *verdict == first);
-        let tells = kink.of_velocities || sides.complete && first == Stability::Stable;
-        Ok(match by_potential && alike && tells {
-            true => first,
-            false => Stability::Undecided,
-        })
-    }
-
-    /// What the stiffness tells, and where nothing is held the modes.
-    fn stability(
-        &mut self,
-        here: &Place,
-        stiffness: &DMatrix<f64>,
-        linear: Option<Linear>,
-    ) -> Result<Stability, Error> {
-        let (mut decays, mut stays) = (false, false);
-        if let Some(linear) = linear {
-            let (modes, grows) = linear_motion(&self.mech, &here.state, &linear)?;
-            if grows || modes.iter().any(|mode| mode.growth > 0.0) {
-                return Ok(Stability::Unstable);
-            }
-            decays = modes.iter().all(|mode| mode.growth < 0.0);
-            // Nonholonomic constraints let go of displacements that the stiffness does not see.
-            let spec = self.mech.spec();
-            stays = spec.holonomic < spec.m() && modes.iter().any(|mode| mode.size() == 0.0);
-        }
-        let largest = stiffness.amax();
-        let curved = spectrum::symmetric(symmetric(stiffness)).ok_or_else(unfound)?;
-        let (softest, least) = curved.eigenvalues.argmin();
-        let flat = largest
-            * if self.held.is_empty() {
-                FLAT
-            } else {
-                FLAT_BY_DIFFERENCES
-            };
-        let told_by_modes = self.held.is_empty() && !is_symmetric(&self.mech);
-        Ok(match least {
-            x if x > flat => {
-                let direction = curved.eigenvectors.column(softest).into_owned();
-                match self.turns(here, &direction, x) {
-                    true => Stability::Unstable,
-                    false if stays => Stability::Neutral,
-                    false => Stability::Stable,
-                }
-            }
-            // Feedback may drive back what no symmetric stiffness does.
-            _ if told_by_modes && decays => Stability::Stable,
-            // Other forces, or nonholonomic constraints, may hold what the stiffness drives on; that nothing grows has been seen.
-            x if x >= -flat || told_by_modes => Stability::Neutral,
-            _ => Stability::Unstable,
-        })
-    }
-}
-
-/// Whether a search that began with the largest force `first` ends with one that rounding of coordinates, or that of forces where these are
-/// zero, does not explain, no less than where it began. `None` for a stiffness that is not finite.
-fn is_unexplained(
-    here: &Place,
-    stiffness: &DMatrix<f64>,
-    first: f64,
-    rounding: &DVector<f64>,
-) -> Option<bool> {
-    let sizes = here.state.q.iter().zip(here.units.iter());
-    let sizes = DVector::from_iterator(here.units.len(), sizes.map(|(q, unit)| (q / unit).abs()));
-    let curved = spectrum::symmetric(symmetric(stiffness))?;
-    let ways = &here.basis * &curved.eigenvectors;
-    let rounded = ROUNDINGS * f64::EPSILON * ways.abs().tr_mul(&sizes);
-    let force = curved.eigenvectors.tr_mul(&here.force);
-    let computed = ways.abs().tr_mul(&rounding.component_mul(&here.units));
-    let explained = curved.eigenvalues.abs().component_mul(&rounded) + computed;
-    let left = (force.abs() - explained).map(|left| left.max(0.0));
-    let limit = LEFT * first.max(here.parts);
-    Some(left.norm() > limit)
 }
 
 /// The symmetric part of `matrix`.

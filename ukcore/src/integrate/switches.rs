@@ -21,7 +21,7 @@ mod hover;
 mod turn;
 
 pub(super) use dips::Seen;
-pub(super) use hover::on_by;
+pub(super) use hover::{on_by, to_zeros};
 pub(super) use turn::Stuck;
 
 /// Parts into which a step is divided in the search for sign changes.

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::sums::projection_norm;
-use crate::integrate::switches::{Leaving, Seen, Stuck, on_by};
+use crate::integrate::switches::{Leaving, Seen, Stuck, on_by, to_zeros};
 use crate::integrate::{Next, PROJECTION_LIMIT, Problem};
 use crate::mechanism::Branch;
 
@@ -205,12 +205,10 @@ impl Driver<'_> {
         }
         let problem = &mut *self.equations.problem;
         let [values, rates] = moving(problem, at, &acceleration);
-        let late = switches.iter().map(|k| values[*k] / rates[*k]);
-        let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let Some(late) = late.filter(|late| late.is_finite()) else {
+        let Some(way) = to_zeros(&switches, &values, &rates) else {
             return false;
         };
-        let zero = on_by(-late, &y, &acceleration);
+        let zero = on_by(way, &y, &acceleration);
         let tolerance = &self.settings.tolerance;
         let mut entered = |t: f64, y: &[f64]| {
             let mut entered = y.to_vec();
@@ -219,7 +217,7 @@ impl Driver<'_> {
             let changes = entered.iter().zip(y).map(|(new, old)| new - old);
             Some((projection_norm(changes, [y, y], tolerance), entered))
         };
-        match (entered(now.t, &y), entered(now.t - late, &zero)) {
+        match (entered(now.t, &y), entered(now.t + way, &zero)) {
             (Some((here, state)), Some((there, _)))
                 if there <= (CONTINUOUS * here).min(PROJECTION_LIMIT) =>
             {

@@ -119,9 +119,7 @@ impl Equations<'_> {
         let mut rates = values.clone();
         let sample = self.at(self.course.now.s, y);
         self.problem.switching_rate(sample, &here[0], &mut rates);
-        let late = switches.iter().map(|k| -values[*k] / rates[*k]);
-        let late = late.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let Some(late) = late.filter(|late| late.is_finite()) else {
+        let Some(late) = to_zeros(switches, &values, &rates) else {
             return false;
         };
         let there = self.sides(switches, late, &on_by(late, y, &here[0]));
@@ -172,4 +170,15 @@ pub(in crate::integrate) fn on_by(time: f64, y: &[f64], acceleration: &[f64]) ->
     axpy(time, &y[n..], &mut on[..n]);
     axpy(time, acceleration, &mut on[n..]);
     on
+}
+
+/// The time in which the last of `switches` gets to its zero from these values at these rates; none where it does not.
+pub(in crate::integrate) fn to_zeros(
+    switches: &[usize],
+    values: &[f64],
+    rates: &[f64],
+) -> Option<f64> {
+    let times = switches.iter().map(|k| -values[*k] / rates[*k]);
+    let last = times.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    last.filter(|time| time.is_finite())
 }
