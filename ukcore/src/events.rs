@@ -85,7 +85,7 @@ impl Event {
         wanted.then_some(direction)
     }
 
-    /// Ends the run at the first crossing that counts.
+    /// Ends the run at the first crossing that counts; what others cross at the same time still counts.
     #[must_use]
     pub fn terminal(mut self) -> Self {
         self.terminal = true;
@@ -242,8 +242,9 @@ impl Watch {
             }
             let sign = if t < t_old { -1.0 } else { 1.0 };
             crossings[found..].sort_by(|x, y| (sign * x.t).total_cmp(&(sign * y.t)));
-            if let Some(last) = crossings.iter().position(|c| events[c.event].terminal) {
-                crossings.truncate(last + 1);
+            let mut terminal = crossings.iter().filter(|c| events[c.event].terminal);
+            if let Some(end) = terminal.next().map(|c| c.t) {
+                crossings.retain(|c| sign * c.t <= sign * end);
                 break;
             }
             a = b;
@@ -344,10 +345,11 @@ mod tests {
             Event::new("later", |_, q, _| q[0] - 0.52),
             Event::new("end", |_, q, _| q[0] - 0.51).terminal(),
             Event::new("earlier", |_, q, _| q[0] - 0.1),
+            Event::new("meanwhile", |_, q, _| q[0] - 0.51),
         ];
         let found = crossings(events, &[0.0, 1.0]);
         let names: Vec<usize> = found.iter().map(|c| c.0).collect();
-        assert_eq!(names, [2, 1]);
+        assert_eq!(names, [2, 1, 3]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::ControlFlow;
+use std::str::FromStr;
 
 use crate::assemble::State;
 use crate::error::Error;
@@ -94,6 +95,22 @@ pub enum Switching {
     /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it, in
     /// steps of about the tolerance over the jump of the acceleration: one second at rest may take millions.
     Ignored,
+}
+
+/// Reads `located` or `ignored`.
+impl FromStr for Switching {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "located" => Ok(Switching::Located),
+            "ignored" => Ok(Switching::Ignored),
+            _ => {
+                let reason = format!("is `{text}`; it is `located` or `ignored`");
+                Err(Error::invalid("switching", reason))
+            }
+        }
+    }
 }
 
 /// A run that failed: why, and the motion up to there.

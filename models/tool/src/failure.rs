@@ -117,6 +117,7 @@ pub(crate) fn told(error: &Error) -> String {
             "t_end" => format!("`--until` {reason}"),
             "every" => format!("`--every` {reason}"),
             "method" => format!("`--method` {reason}"),
+            "max_step" => format!("`--max-step` {reason}"),
             "step" => format!("the step of `--method rattle=STEP` {reason}"),
             "hold" => format!("`--hold` {reason}"),
             "speed" => format!("`--speed` {reason}"),

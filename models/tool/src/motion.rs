@@ -4,7 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use clap::Args;
 use ukcore::manifold::Stabilisation;
-use ukcore::simulate::{Ending, Record, SMALLEST_TOLERANCE, Sample};
+use ukcore::simulate::{Ending, Record, SMALLEST_TOLERANCE, Sample, Switching};
 use ukcore::{Error, Method, Simulation, Trajectory};
 
 use crate::failure::Failure;
@@ -34,9 +34,9 @@ pub struct Motion {
     /// conservative motion has no trend, however long the run
     #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
     pub method: Method,
-    /// Steps to give up after, such as 1e9
-    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps, allow_hyphen_values = true)]
-    pub max_steps: usize,
+    /// How it steps
+    #[command(flatten)]
+    pub steps: Steps,
     /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
     /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
     #[arg(
@@ -46,6 +46,20 @@ pub struct Motion {
         default_value = "projection"
     )]
     pub stabilise: Stabilisation,
+}
+
+/// The command-line arguments that say how long steps may be, how many, and where they end.
+#[derive(Debug, Clone, Args)]
+pub struct Steps {
+    /// Steps to give up after, such as 1e9
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: usize,
+    /// Longest step, such as 2ms: forces of short pulses without a switch, and pairs of events, may lie within longer ones unseen
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_hyphen_values = true)]
+    pub max_step: Option<f64>,
+    /// Whether steps end at the zeros of sign, abs, min and max, `located`, or go across, `ignored`
+    #[arg(long, value_name = "WAY", default_value = "located")]
+    pub switching: Switching,
 }
 
 impl Motion {
@@ -96,12 +110,16 @@ impl Motion {
             .start(ready.state.clone())
             .method(self.method)
             .tolerance(self.tol)
-            .max_steps(self.max_steps)
+            .max_steps(self.steps.max_steps)
+            .switching(self.steps.switching)
             .stabilise(self.stabilise);
         let mut simulation = simulation.progress(move |now| {
             watch(now.t);
             interrupt.flow()
         });
+        if let Some(longest) = self.steps.max_step {
+            simulation = simulation.max_step(longest);
+        }
         if let Some(interval) = every {
             simulation = simulation.every(interval);
         }

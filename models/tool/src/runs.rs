@@ -6,7 +6,7 @@ use ukcore::model::Entry;
 use ukcore::{Error, Method};
 
 use crate::failure::Failure;
-use crate::motion::{self, Motion};
+use crate::motion::{self, Motion, Steps};
 use crate::numbers::{full, rounded};
 use crate::scene::{Place, Start};
 use crate::units::{self, Quantity};
@@ -30,9 +30,9 @@ pub struct Runs {
     /// Integration method, or several, as for `run`: `dop853`, `dopri5`, `radau5`, `rattle=STEP`
     #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = list(motion::method))]
     pub method: List<Method>,
-    /// Steps to give up after, such as 1e9
-    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps, allow_hyphen_values = true)]
-    pub max_steps: usize,
+    /// How they step
+    #[command(flatten)]
+    pub steps: Steps,
     /// How the constraints are kept from drifting, or several ways: `projection,none`
     #[arg(long, visible_alias = "stabilize", value_name = "WAYS", default_value = "projection", value_parser = ways)]
     pub stabilise: List<Stabilisation>,
@@ -132,7 +132,7 @@ impl Runs {
             until: self.until,
             tol,
             method,
-            max_steps: self.max_steps,
+            steps: self.steps.clone(),
             stabilise: way,
         };
         Variant {

@@ -96,9 +96,11 @@ impl<'s> Recorder<'s> {
         let Some(here) = self.trajectory.end.clone() else {
             return Ok(Next::Continue);
         };
-        let mut met = self.watch.up_to(beyond)?.into_iter();
         let events = &mut self.trajectory.events;
-        let ends = met.any(|(event, direction)| meet(events, event, direction, here.clone()));
+        let mut ends = false;
+        for (event, direction) in self.watch.up_to(beyond)? {
+            ends |= meet(events, event, direction, here.clone());
+        }
         if ends {
             self.trajectory.ending = Ending::Event;
         }

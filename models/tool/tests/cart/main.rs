@@ -118,6 +118,14 @@ fn wrong_names_and_numbers_are_told_with_what_is_right() {
     }
     let steps = "a whole number of steps is needed, from 1 to below 1e18";
     fails("run cart --max-steps -3", 2, steps);
+    fails("run cart --max-step -3", 2, "a positive time is needed");
+    let own = "`--max-step` is given, but RATTLE has its own step; leave it out";
+    fails("run cart --method rattle=1ms --max-step 2ms", 2, own);
+    let many = output("run cart --guess x=0.4 --hold s --until 0.1 --max-step 1ms --json");
+    let many: Value = serde_json::from_str(&many).expect("JSON");
+    assert!(many["work"]["steps"].as_u64() >= Some(99), "{many}");
+    let ways = "`switching` is `never`; it is `located` or `ignored`";
+    fails("run cart --switching never", 2, ways);
 }
 
 #[test]

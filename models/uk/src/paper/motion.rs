@@ -4,10 +4,12 @@ use std::time::Instant;
 
 use serde::Serialize;
 use ukcore::manifold::Stabilisation;
+use ukcore::simulate::Switching;
 use ukcore::solver::SolverOptions;
 use ukcore::{Event, Method, Simulation, Solver, State, Trajectory};
 use uktool::drift::Drift;
 use uktool::failure::Failure;
+use uktool::motion::{self, Steps};
 use uktool::scene::{Ready, Start};
 use uktool::{animate, command};
 
@@ -21,11 +23,15 @@ const PICTURES: u32 = 301;
 
 /// A page that plays motions of the model `id` up to `until`, s, side by side under their labels.
 pub(super) fn film(id: &str, runs: [(String, Start); 2], until: f64) -> Result<String, Failure> {
-    let motion = uktool::motion::Motion {
+    let motion = motion::Motion {
         until: Some(until),
         tol: TOLERANCE,
         method: Method::Dop853,
-        max_steps: 1_000_000,
+        steps: Steps {
+            max_steps: 1_000_000,
+            max_step: None,
+            switching: Switching::Located,
+        },
         stabilise: Stabilisation::Projection,
     };
     let models = models::entries();
