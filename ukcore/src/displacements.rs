@@ -109,11 +109,20 @@ pub(crate) fn measure(rows: &mut DMatrix<f64>, units: &DVector<f64>) {
     }
 }
 
-/// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
-pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+/// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns. What no row knows of is in a column of
+/// its own.
+pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
     let n = rows.ncols();
-    let (decomposed, pivots) = decompose(rows, units);
-    complement(n, &decomposed, independent(&pivots))
+    // Behind all others no reflection touches it.
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by_key(|j| rows.column(*j).amax() == 0.0);
+    measure(&mut rows, units);
+    normalise(&mut rows);
+    let (decomposed, pivots) = pivoted(&rows.select_columns(&order));
+    let basis = complement(n, &decomposed, independent(&pivots));
+    let mut places = vec![0; n];
+    order.iter().enumerate().for_each(|(k, j)| places[*j] = k);
+    basis.select_rows(&places)
 }
 
 /// [`null_space`] of displacements that leave the coordinates `held` where they are.

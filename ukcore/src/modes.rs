@@ -21,7 +21,7 @@ use crate::noise::Noise;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::or_one;
 use crate::solver::{Solver, SolverOptions};
-use crate::spectrum::eigenvalues;
+use crate::spectrum::{eigenvalues, isolated};
 
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that
 /// was found by iteration; and what is nearer to rest than this share of its size.
@@ -131,14 +131,18 @@ pub(crate) fn linear_motion(
     let together = TOGETHER * reduced.norm();
     let mut shapes: Vec<Found> = Vec::new();
     let reason = "has a linearised motion whose eigenvalues were not found";
-    let values = eigenvalues(&reduced).ok_or_else(|| Error::invalid("state", reason))?;
+    let (mixed, alone) = isolated(&reduced);
+    let values = eigenvalues(&mixed).ok_or_else(|| Error::invalid("state", reason))?;
+    let alone = alone.into_iter().map(|x| Complex::new(x, 0.0));
+    let alone = alone.map(|x| (x, DMatrix::from_element(1, 1, x.re)));
+    let values = values.into_iter().map(|x| (x, mixed.clone())).chain(alone);
     // One of two conjugate ones tells of both.
-    for value in values.iter().filter(|value| value.im >= 0.0) {
-        let part = eigenvector(&reduced, *value, 0);
-        let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * *value;
+    for (value, own) in values.filter(|(value, _)| value.im >= 0.0) {
+        let part = eigenvector(&reduced, value, 0);
+        let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * value;
         let rounding = rounding.max(left.norm());
-        let could_be = |re, im| is_one(&reduced, *value, Complex::new(re, im), rounding);
-        let (growth, frequency) = match *value {
+        let could_be = |re, im| is_one(&own, value, Complex::new(re, im), rounding);
+        let (growth, frequency) = match value {
             _ if could_be(0.0, 0.0) => (0.0, 0.0),
             Complex { re, im } if swings && im >= re.abs() => (0.0, pace * im),
             Complex { re, .. } if swings => (pace * re, 0.0),
@@ -152,14 +156,14 @@ pub(crate) fn linear_motion(
         for _ in 0..1 + usize::from(coincide) {
             let same = |one: &Found| lasts && (one.value - value).norm() <= together;
             let among: Vec<usize> = (0..shapes.len()).filter(|k| same(&shapes[*k])).collect();
-            let again = |number| positions(&tangent, &eigenvector(&reduced, *value, number));
+            let again = |number| positions(&tangent, &eigenvector(&reduced, value, number));
             let other = match among.len() {
                 0 => None,
                 number => share_out(&mut shapes, &among, again(number)),
             };
             let shape = other.unwrap_or_else(|| positions(&tangent, &part));
             shapes.push(Found {
-                value: *value,
+                value,
                 growth,
                 frequency,
                 own: shape.icamax(),

@@ -88,6 +88,23 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(values)
 }
 
+/// What is left of a square `matrix` without the rows and columns from which an eigenvalue can be read off, and these eigenvalues: where
+/// nothing but the diagonal is left of a row or column, no rounding of others changes it (LAPACK's `dgebal`). A coordinate that no
+/// equation contains, as where a vehicle is, has an eigenvalue of 0 so, which what it follows from does not mix with.
+pub(crate) fn isolated(matrix: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+    let mut left: Vec<usize> = (0..matrix.nrows()).collect();
+    let mut values = Vec::new();
+    while let Some(place) = left.iter().position(|k| {
+        let mut others = left.iter().filter(|i| *i != k);
+        let mut along = others.clone();
+        others.all(|i| matrix[(*i, *k)] == 0.0) || along.all(|i| matrix[(*k, *i)] == 0.0)
+    }) {
+        let k = left.remove(place);
+        values.push(matrix[(k, k)]);
+    }
+    (matrix.select_rows(&left).select_columns(&left), values)
+}
+
 /// `matrix` measured by powers of two such that each row and its column are about as large as each other, which changes no eigenvalue
 /// (Parlett & Reinsch, Numerische Mathematik 13 (1969), pp. 293–304): of what is slow beside the rest the frequency stands in both, not
 /// its square in one and 1 in the other, where rounding of the other parts would be more than it.

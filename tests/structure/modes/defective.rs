@@ -167,3 +167,39 @@ fn powers_of_time_above_the_first_are_no_drift() {
         assert_eq!(stability(Pushing { k, c }.into(), 2), expected, "{k}, {c}");
     }
 }
+
+ukcore::multibody! {
+    /// A sledge on a runner, whose turning dies away.
+    pub Sledge {
+        params { m = 80.0, j = 5.0, c = 1.0, k = 30.0, v = 7.0 }
+        coords { x, y, yaw, lean }
+        mass { x: m, y: m, yaw: j, lean: 2.0 }
+        potential { 0.5 * k * sq(lean) }
+        force { yaw: -c * dot(yaw) + 3 * lean }
+        nonholonomic { runner: dot(y) * cos(yaw) = dot(x) * sin(yaw) }
+    }
+}
+
+/// Where it is follows from where it heads, and that from its turning: the eigenvalue −c/j comes to 0 where there are two of 0 with one
+/// shape. Rounding beside where it is would leave it known to no more than its third root.
+#[test]
+fn slow_turning_of_a_vehicle_is_told() {
+    for exponent in 1..7 {
+        let c = 10_f64.powi(-exponent);
+        let sledge = Sledge {
+            c,
+            ..Sledge::default()
+        };
+        let state = ukcore::State {
+            v: vec![sledge.v, 0.0, 0.0, 0.0],
+            ..at_rest(&[0.3, -2.0, 0.0, 0.0])
+        };
+        let found = modes(&sledge, &state).expect("it glides evenly");
+        let growing: Vec<f64> = found.iter().map(|mode| mode.growth).collect();
+        let slow = growing.iter().fold(0.0_f64, |least, x| least.min(*x));
+        let off = (slow + c / sledge.j).abs();
+        assert!(off < 1e-9, "{c}: {growing:?}");
+        let others = growing.iter().filter(|x| **x != 0.0);
+        assert_eq!(others.count(), 1, "{c}: {growing:?}");
+    }
+}
