@@ -172,7 +172,7 @@ ukcore::multibody! {
     /// A sledge on a runner, whose turning dies away.
     pub Sledge {
         params { m = 80.0, j = 5.0, c = 1.0, k = 30.0, v = 7.0 }
-        coords { x, y, yaw, lean }
+        coords { y, x, yaw, lean }
         mass { x: m, y: m, yaw: j, lean: 2.0 }
         potential { 0.5 * k * sq(lean) }
         force { yaw: -c * dot(yaw) + 3 * lean }
@@ -191,7 +191,7 @@ fn slow_turning_of_a_vehicle_is_told() {
             ..Sledge::default()
         };
         let state = ukcore::State {
-            v: vec![sledge.v, 0.0, 0.0, 0.0],
+            v: vec![0.0, sledge.v, 0.0, 0.0],
             ..at_rest(&[0.3, -2.0, 0.0, 0.0])
         };
         let found = modes(&sledge, &state).expect("it glides evenly");
