@@ -9,6 +9,7 @@
 //! Nor does an entry say anything that rounding alone makes: of the two ends of an axle the angle of a cart is a cos² + a sin² − …, which
 //! is 1e-17 where the axle goes through the centre, and would be worth any length.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -441,12 +442,12 @@ fn apart(n: usize, m: usize, pattern: &[(usize, usize)]) -> Vec<usize> {
 fn classes(spec: &Spec) -> (Vec<usize>, usize, Vec<Turn>) {
     let (n, structure) = (spec.n(), &spec.structure);
     let mut turns: Vec<Turn> = structure.angles.iter().map(|i| Turn::Angle(*i)).collect();
-    let mut names: Vec<String> = (0..n).map(|i| spec.coordinate_unit(i).to_owned()).collect();
+    let mut names: Vec<Cow<'_, str>> = (0..n).map(|i| spec.coordinate_unit(i).into()).collect();
     let declared = !spec.coordinate_units.is_empty();
     let number = |i: usize| declared && matches!(spec.coordinate_unit(i), "" | "rad");
     for (i, name) in names.iter_mut().enumerate() {
         if number(i) || structure.angles.contains(&i) {
-            "rad".clone_into(name);
+            *name = "rad".into();
         }
     }
     let unit = [structure.solve.regular, structure.solve.turned].concat();
@@ -455,12 +456,12 @@ fn classes(spec: &Spec) -> (Vec<usize>, usize, Vec<Turn>) {
         if !declared {
             let name = all.iter().map(|i| names[*i].clone()).min();
             let name = name.filter(|name| !name.is_empty());
-            let name = name.unwrap_or_else(|| format!("row {c}"));
+            let name = name.unwrap_or_else(|| format!("row {c}").into());
             all.iter().for_each(|i| names[*i].clone_from(&name));
         }
         turns.push(Turn::Together(all));
     }
-    let mut found: Vec<&String> = Vec::new();
+    let mut found: Vec<&str> = Vec::new();
     let class = names.iter().map(|name| {
         let known = found.iter().position(|other| *other == name);
         known.unwrap_or_else(|| {

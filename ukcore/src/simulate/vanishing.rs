@@ -275,11 +275,15 @@ impl RowWatch {
         }
         let back = |c: &usize| self.going[*c] < 0.0 && self.may.get(*c) != Some(&false);
         let row = (0..self.going.len()).find(back)?;
-        let own = structure.in_row(row);
+        let own = |all: &[f64]| -> Vec<f64> { structure.in_row(row).map(|i| all[i]).collect() };
+        let ends = [old, new].map(|end| [own(end.q), own(end.v)]);
+        let ends = ends.each_ref().map(|end| end.each_ref().map(|x| &x[..]));
+        let [[_, from], [_, to]] = ends;
+        let (mut q, mut v) = (vec![0.0; to.len()], vec![0.0; to.len()]);
         let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
-            let v = between_states(old, new, part).v;
-            let each = own.clone().map(|i| v[i] * (new.v[i] - old.v[i]));
-            Ok(each.sum())
+            between(part, new.t - old.t, ends, [&mut q, &mut v]);
+            let changes = to.iter().zip(from).map(|(to, from)| to - from);
+            Ok(v.iter().zip(changes).map(|(v, change)| v * change).sum())
         };
         let Ok(part) = locate(turned, 0.0, 1.0);
         Some(part)
