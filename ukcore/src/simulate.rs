@@ -332,6 +332,7 @@ impl Simulation {
             located,
             sloped: has_switches.then(|| self.mechanism.sloped()),
             along: has_switches.then(|| self.mechanism.along()),
+            noise: None,
             columns: None,
             energy,
             recorder,

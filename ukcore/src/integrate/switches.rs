@@ -38,6 +38,10 @@ const AT_END: f64 = 1e-13;
 const JUMP: f64 = 1e3;
 const ROUNDED: f64 = 1e-10;
 
+/// A function that is beyond its zero by no more than so many times its rounding is not: what holds it there, as a constraint does the
+/// velocity in a joint that is locked, leaves as much.
+const ROUNDINGS: f64 = 16.0;
+
 /// Zeros of several functions within this part of a step are one.
 const TOGETHER: f64 = 1e-10;
 
@@ -59,6 +63,8 @@ pub(super) struct Switches {
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
+    /// How far beyond its zero each function is by rounding, where one was last beyond.
+    blurs: Vec<f64>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -84,6 +90,7 @@ impl Switches {
         Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
+            blurs: vec![0.0; count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -116,6 +123,27 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
+    /// Whether switch k with the value `g` is outside of its branch, by more than rounding where that is known.
+    fn is_outside(&self, k: usize, g: f64) -> bool {
+        self.inside(k, g) < -self.blurs[k]
+    }
+
+    /// Takes the rounding of all functions at a state. Whether it is more than it was of any.
+    pub(super) fn blur(
+        &mut self,
+        problem: &mut dyn Problem,
+        at: Sample<'_>,
+        least: &[f64],
+    ) -> bool {
+        let before = self.blurs.clone();
+        problem.switching_rounding(at, least, &mut self.blurs);
+        self.blurs.iter_mut().for_each(|blur| *blur *= ROUNDINGS);
+        self.blurs
+            .iter()
+            .zip(before)
+            .any(|(blur, before)| *blur > before)
+    }
+
     /// y' is to be evaluated at this state.
     #[inline]
     pub(super) fn look(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
@@ -123,7 +151,7 @@ impl Switches {
             return;
         }
         problem.switching(at, &mut self.values);
-        let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
+        let outside = |k: usize| self.is_outside(k, self.values[k]);
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
 
@@ -154,7 +182,7 @@ impl Switches {
         }
         let mut found = None;
         let mut a = from;
-        let mut parts = std::mem::take(&mut self.dips);
+        let mut parts = self.dips.clone();
         parts.extend((1..PARTS).map(|part| part as f64 / PARTS as f64));
         parts.push(to);
         if from > 0.0 {
@@ -169,7 +197,7 @@ impl Switches {
             for k in 0..self.branches.len() {
                 let (before, after) = (self.before[k], self.inside(k, values[k]));
                 self.before[k] = after;
-                if after >= 0.0 || after.is_nan() || self.targets.contains(&k) {
+                if !self.is_outside(k, values[k]) || self.targets.contains(&k) {
                     continue;
                 }
                 if before <= 0.0 {

@@ -14,6 +14,7 @@ use crate::integrate::{Method, Next, Outcome, Problem, Purpose, Settings, Singul
 use crate::interval::Along;
 use crate::linearise::Columns;
 use crate::mechanism::{Branch, Dynamics, Prepared, Switches};
+use crate::noise::Noise;
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{CLEAR, RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
@@ -30,6 +31,8 @@ pub(super) struct Run<'s> {
     pub(super) sloped: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
     /// The mechanism for what switching functions do within a step, if there are some.
     pub(super) along: Option<Prepared<Along, dyn Switches<Along>>>,
+    /// What rounding the equations carry, made where it is first asked for.
+    pub(super) noise: Option<Noise>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
     /// Watches the energy where a method has a fixed step.
@@ -273,6 +276,15 @@ impl Problem for Run<'_> {
     fn switching(&mut self, at: Sample<'_>, values: &mut [f64]) {
         let mechanism = self.solver.mechanism();
         mechanism.switching(at.t, at.q, at.v, values);
+    }
+
+    fn switching_rounding(&mut self, at: Sample<'_>, least: &[f64], out: &mut [f64]) {
+        let mechanism = self.solver.mechanism();
+        let noise = self.noise.get_or_insert_with(|| Noise::new(mechanism));
+        let (q, v) = least.split_at(at.q.len());
+        noise.go(mechanism, at.t, [at.q, at.v], |j| [q[j], v[j]]);
+        noise.switching(out);
+        out.iter_mut().for_each(|bound| *bound *= f64::EPSILON);
     }
 
     fn switching_along(&mut self, t: Along, q: &[Along], v: &[Along], values: &mut [Along]) {

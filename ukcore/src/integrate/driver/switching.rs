@@ -13,9 +13,6 @@ use crate::mechanism::Branch;
 /// at the zero, and than any step may be projected by, do so for being beside it.
 const CONTINUOUS: f64 = 0.1;
 
-/// A step that is this part of the one that was tried first is short.
-const SOON: f64 = 1e-3;
-
 /// How often the way over a zero is doubled where rounding hides it.
 const BEHIND: usize = 8;
 
@@ -31,12 +28,8 @@ pub(super) struct Goal {
 impl Driver<'_> {
     /// Chooses branches at the start of the run, and evaluates f there.
     pub(super) fn choose(&mut self) -> Result<(), Error> {
-        let start = self.scheme.start();
-        let zeros = match self.equations.choose(start) {
-            Ok(zeros) => zeros,
-            Err(Stuck(zeros)) if self.equations.loosen(&zeros, 0.0, start) => zeros,
-            Err(stuck) => return Err(self.stuck(&stuck)),
-        };
+        let zeros = self.equations.choose(self.scheme.start());
+        let zeros = zeros.map_err(|stuck| self.stuck(&stuck))?;
         match self.begin_at(&zeros) {
             Err(error) => self.launch()?.then_some(()).ok_or(error),
             begun => begun,
@@ -77,11 +70,14 @@ impl Driver<'_> {
         }
         let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;
-        let coefficients = self.scheme.dense();
-        match equations
-            .switches
-            .search(equations.problem, time, coefficients, [from, to])
-        {
+        let (start, coefficients) = (self.scheme.start(), self.scheme.dense());
+        let (switches, problem) = (&mut equations.switches, &mut *equations.problem);
+        let mut left = switches.search(problem, time, coefficients, [from, to]);
+        let least = &self.settings.tolerance.floors;
+        if left.is_some() && switches.blur(problem, Sample::of(t0 + trial.start.s, start), least) {
+            left = switches.search(problem, time, coefficients, [from, to]);
+        }
+        match left {
             None => {}
             Some(Leaving::AtEnd(targets)) => equations.switches.targets.extend(targets),
             Some(leaving) => return Err(Refusal::Leaves(leaving, error)),
@@ -128,23 +124,14 @@ impl Driver<'_> {
         {
             return self.begin_at(&switches);
         }
-        let start = self.scheme.start();
-        let (still, stuck) = match self.equations.turn(&switches, start) {
-            Ok(true) => {
-                self.turned.clone_from(&switches);
-                return self.begin_at(&switches);
-            }
-            Ok(false) => (switches, false),
-            Err(Stuck(stuck)) => (stuck, true),
-        };
-        // Rounding takes them out of both branches, or so soon at no rate, where they stay at zero, as those of a joint that is locked.
-        let soon = stuck || trial.h.abs() <= SOON * whole.0.abs();
-        if soon && self.equations.loosen(&still, whole.0, start) {
-            return self.begin_at(&still);
-        }
-        if stuck {
-            self.equations.flip(&still, start);
-            return Err(self.rests(Stuck(still)));
+        let turned = self.equations.turn(&switches, self.scheme.start());
+        let turned = turned.map_err(|stuck| {
+            self.equations.flip(&stuck.0, self.scheme.start());
+            self.rests(stuck)
+        });
+        if turned? {
+            self.turned.clone_from(&switches);
+            return self.begin_at(&switches);
         }
         // The motion goes into its branch, and leaves it before the step's first part ends.
         self.equations.course.h = self.scheme.unfit(trial.h);

@@ -106,11 +106,6 @@ pub(in crate::integrate) enum Seen {
     Rough,
 }
 
-/// From where a function that is within its branch by these counts as outside.
-fn beyond(values: [f64; 2]) -> f64 {
-    -DEPTH * values[0].abs().max(values[1].abs())
-}
-
 /// What is seen of one function.
 enum Sight {
     /// It stays in its branch.
@@ -214,7 +209,7 @@ impl Switches {
         let held = |k: &usize| self.branches[*k] != Branch::Followed && !self.targets.contains(k);
         let mut open = std::mem::take(&mut buffers.open);
         open.extend((0..self.branches.len()).filter(held));
-        let outside = |k: &usize| self.inside(*k, buffers.known[*k]) < 0.0;
+        let outside = |k: &usize| self.is_outside(*k, buffers.known[*k]);
         self.doubt |= open.iter().any(outside);
         let mut look = |place: f64, values: &mut [f64]| {
             way.look(problem, place, &mut buffers.state, values);
@@ -228,7 +223,7 @@ impl Switches {
                     return true;
                 }
                 let ends = self.ends(*k, &buffers);
-                self.leaves(*k, buffers.within[*k], ends[1], beyond(ends)) != Some(false)
+                self.leaves(*k, buffers.within[*k], ends[1], self.beyond(*k, ends)) != Some(false)
             });
         }
         for k in open.drain(..) {
@@ -245,6 +240,12 @@ impl Switches {
             true if rough => Seen::Rough,
             true => Seen::Whole,
         }
+    }
+
+    /// From where function k, which is within its branch by these at the ends of the step, counts as outside within it.
+    fn beyond(&self, k: usize, ends: [f64; 2]) -> f64 {
+        let rounding = (f64::EPSILON * self.sizes[k]).max(self.blurs[k]);
+        -(DEPTH * ends[0].abs().max(ends[1].abs())).max(rounding)
     }
 
     /// How far function k is within its branch at the ends of the step.
@@ -278,7 +279,7 @@ impl Switches {
             return self.sampled(k, way, problem, buffers, f64::INFINITY);
         }
         let ends = self.ends(k, buffers);
-        let least = beyond(ends).min(-f64::EPSILON * self.sizes[k]);
+        let least = self.beyond(k, ends);
         let mut outside = if ends[1] < least { 1.0 } else { f64::INFINITY };
         let mut parts: Vec<([f64; 2], [f64; 2])> = vec![([0.0, 1.0], ends)];
         for _ in 0..PARTS {
@@ -338,7 +339,7 @@ impl Switches {
             );
             values[place] = self.inside(k, buffers.values[k]);
         }
-        let least = beyond([from, to]).min(-f64::EPSILON * self.sizes[k]);
+        let least = self.beyond(k, [from, to]);
         if is_rough(&values, -least) {
             return Sight::Rough;
         }
