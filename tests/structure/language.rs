@@ -490,3 +490,29 @@ fn ukcore_may_have_another_name() {
     let found = found.expect("a regular system").acceleration[0];
     assert!((found + 9.81).abs() < 1e-14, "{found}");
 }
+
+ukcore::multibody! {
+    /// A slip is that of any two points, be they of a wall, of a body that is welded to it, or of one that moves.
+    Slips {
+        bodies {
+            planar post { mass: 1.0, inertia: 0.1, centre: [0.2, 0] }
+            planar arm { mass: 2.0, inertia: 0.1 }
+        }
+        tree {
+            foot: weld(ground.at([0, 1]), post.at([0, 0]), 0.4)
+            hinge: pin(post.at([0.5, 0]), arm.at([0, 0]))
+        }
+        let slip = |a, b| norm(dot(b) - dot(a));
+        output {
+            still = slip(ground.at([1, 0]), post.at([0.3, 0])) + norm(dot(post.centre)),
+            turning = slip(ground.at([1, 0]), arm.at([0.25, 0])),
+        }
+    }
+}
+
+#[test]
+fn points_that_stand_still_have_the_velocity_zero() {
+    let found = outputs(&Slips::default(), &at(&[0.7], &[2.0]));
+    assert_close("a point that stands still", found[0], 0.0, 0.0);
+    assert_close("a point that turns", found[1], 0.5, 1e-15);
+}

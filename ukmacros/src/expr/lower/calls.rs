@@ -1,6 +1,7 @@
 //! Functions: those of the table, of vectors, and of the declaration.
 
 use super::array::Value;
+use super::bodies::FIELDS;
 use super::parts::{PARTS, joints};
 use super::vectors::OPERATIONS;
 use super::{Binding, Env, Lowering, Place};
@@ -253,6 +254,14 @@ impl<'m> Lowering<'m> {
         self.allowed_value(value, e.loc, env)
     }
 
+    /// Whether this is a point of a body, or what belongs to one.
+    fn is_of_body(&mut self, e: &Expr, env: &Env<'m>) -> bool {
+        match &e.kind {
+            ExprKind::Field(_, name) => FIELDS.iter().any(|field| name == field),
+            _ => matches!(self.argument(e, env), Value::Point(_)),
+        }
+    }
+
     /// `dot(u)`: q̇ of a coordinate, the total time derivative of an expression of q and t.
     fn dot(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
         let [u] = args else {
@@ -273,8 +282,9 @@ impl<'m> Lowering<'m> {
         if ids.iter().any(|id| self.graph.uses(*id).multiplier) {
             return self.error(e.loc, "the time derivative of a reaction is not solved for");
         }
-        // What is unknown stands as zero, and is reported.
-        if ids.iter().all(|id| self.graph.uses(*id).constant()) && self.unknown.is_empty() {
+        // What is unknown stands as zero, and is reported. A point may stand still: of the ground, or of a body that is welded to it.
+        let fixed = ids.iter().all(|id| self.graph.uses(*id).constant());
+        if fixed && self.unknown.is_empty() && !self.is_of_body(u, env) {
             return self.error(u.loc, "this does not change with time; `dot` takes a coordinate or an expression of coordinates and `t`");
         }
         let mut total = Derivative::total();
