@@ -253,3 +253,58 @@ fn friction_in_a_joint_that_is_locked_does_nothing() {
         }
     }
 }
+
+ukcore::multibody! {
+    /// Two bodies with a spring between them that pushes alone, far from the origin.
+    Distant {
+        params { far = 1e8, k = 1e4 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        potential { 0.5 * k * sq(max(0.0, (x + far) - (y + far) - 0.1)) }
+    }
+}
+
+/// What rounding hides of the gap takes no part in the motion: they do not stick to each other while it does.
+#[test]
+fn bodies_far_away_part_after_they_have_met() {
+    let (speed, k) = (0.01, Distant::default().k);
+    let until = 0.2 / speed + std::f64::consts::PI / (2.0 * k).sqrt() + 0.5;
+    for method in METHODS {
+        for tolerance in [1e-5, 1e-7] {
+            let run = Simulation::new(Distant::default())
+                .method(method)
+                .tolerance(tolerance)
+                .start(at(&[0.0, 0.1], &[speed, 0.0]))
+                .until(until);
+            let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
+            let off = apart(run.last().expect("an end").v, &[0.0, speed]);
+            assert!(off < 1e-3 * speed, "{method}, {tolerance:e}: {off:e}");
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A push that turns as another body, far slower and nearer to its zero, goes through that.
+    Creeping {
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        force { y: sign(x) }
+    }
+}
+
+#[test]
+fn what_creeps_through_its_zero_turns_there_however_near_it_is() {
+    for (rate, part) in [(1e-6, 1e-9), (1e-12, 1e-9), (1e-12, 0.3), (1e-15, 1e-3)] {
+        for method in METHODS {
+            let run = Simulation::new(Creeping::default())
+                .method(method)
+                .start(at(&[-rate * part, 1.0], &[rate, 0.0]))
+                .until(1.0)
+                .unwrap_or_else(|e| panic!("{method}, {rate:e}: {e}"));
+            let rest = 1.0 - part;
+            let end = 1.0 - 0.5 * part * part - part * rest + 0.5 * rest * rest;
+            let off = (run.last().expect("an end").q[1] - end).abs();
+            assert!(off < 1e-8, "{method}, {rate:e}, {part}: {off:e}");
+        }
+    }
+}

@@ -218,7 +218,7 @@ pub(crate) trait Problem {
     }
     /// The g of all switches at a state.
     fn switching(&mut self, _at: Sample<'_>, _values: &mut [f64]) {}
-    /// The rounding of the g of all switches at a state whose numbers are known to rounding of these sizes at best.
+    /// The rounding of the g of all switches at a state, where projections leave rounding of these sizes at least.
     fn switching_rounding(&mut self, _at: Sample<'_>, _least: &[f64], _out: &mut [f64]) {}
     /// The g of all switches and their derivatives along a way, while the place on it varies.
     fn switching_along(&mut self, _t: Along, _q: &[Along], _v: &[Along], _values: &mut [Along]) {}

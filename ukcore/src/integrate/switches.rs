@@ -38,9 +38,9 @@ const AT_END: f64 = 1e-13;
 const JUMP: f64 = 1e3;
 const ROUNDED: f64 = 1e-10;
 
-/// A function that is beyond its zero by no more than so many times its rounding is not: what holds it there, as a constraint does the
+/// A function that stays within so many times its rounding of its zero does not leave it: what holds it there, as a constraint does the
 /// velocity in a joint that is locked, leaves as much.
-const ROUNDINGS: f64 = 16.0;
+const ROUNDINGS: f64 = 4.0;
 
 /// Zeros of several functions within this part of a step are one.
 const TOGETHER: f64 = 1e-10;
@@ -63,8 +63,10 @@ pub(super) struct Switches {
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
-    /// How far beyond its zero each function is by rounding, where one was last beyond.
+    /// How far beyond its zero each function is by rounding, where one was last beyond; and those of which are no farther from it at the
+    /// start of a step, else 0.
     blurs: Vec<f64>,
+    bands: Vec<f64>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -91,6 +93,7 @@ impl Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
             blurs: vec![0.0; count],
+            bands: vec![0.0; count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -123,25 +126,34 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    /// Whether switch k with the value `g` is outside of its branch, by more than rounding where that is known.
-    fn is_outside(&self, k: usize, g: f64) -> bool {
-        self.inside(k, g) < -self.blurs[k]
+    /// Whether switch k with the value `g` is outside of its branch, by more than rounding where it began the step within that.
+    pub(super) fn is_outside(&self, k: usize, g: f64) -> bool {
+        self.inside(k, g) < -self.bands[k]
     }
 
-    /// Takes the rounding of all functions at a state. Whether it is more than it was of any.
+    /// A step begins where switch k has the value `g`.
+    pub(super) fn begin(&mut self, k: usize, g: f64) {
+        let within = self.inside(k, g).abs() <= self.blurs[k];
+        self.bands[k] = if within { self.blurs[k] } else { 0.0 };
+    }
+
+    /// Takes the rounding of all functions on a step between two states, the lesser one of those at both: beside a place where a function
+    /// is steep, as acos is at 1, it has more than elsewhere. Whether any function begins the step within more of it than was known.
     pub(super) fn blur(
         &mut self,
         problem: &mut dyn Problem,
-        at: Sample<'_>,
+        ends: [Sample<'_>; 2],
         least: &[f64],
     ) -> bool {
-        let before = self.blurs.clone();
-        problem.switching_rounding(at, least, &mut self.blurs);
-        self.blurs.iter_mut().for_each(|blur| *blur *= ROUNDINGS);
-        self.blurs
-            .iter()
-            .zip(before)
-            .any(|(blur, before)| *blur > before)
+        let (before, mut other) = (self.bands.clone(), self.bands.clone());
+        problem.switching_rounding(ends[0], least, &mut self.blurs);
+        problem.switching_rounding(ends[1], least, &mut other);
+        let pairs = self.blurs.iter_mut().zip(other);
+        pairs.for_each(|(blur, other)| *blur = ROUNDINGS * blur.min(other));
+        problem.switching(ends[0], &mut self.values);
+        (0..before.len()).for_each(|k| self.begin(k, self.values[k]));
+        let mut pairs = self.bands.iter().zip(before);
+        pairs.any(|(band, before)| *band > before)
     }
 
     /// y' is to be evaluated at this state.

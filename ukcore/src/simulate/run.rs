@@ -281,8 +281,15 @@ impl Problem for Run<'_> {
     fn switching_rounding(&mut self, at: Sample<'_>, least: &[f64], out: &mut [f64]) {
         let mechanism = self.solver.mechanism();
         let noise = self.noise.get_or_insert_with(|| Noise::new(mechanism));
+        // Constraints leave it in what stands in them; the rest is known as well as it is large.
+        let mut moved = vec![0.0; at.q.len()];
+        for (_, j) in mechanism.spec().structure.jacobian_pattern {
+            moved[*j] = 1.0;
+        }
         let (q, v) = least.split_at(at.q.len());
-        noise.go(mechanism, at.t, [at.q, at.v], |j| [q[j], v[j]]);
+        noise.go(mechanism, at.t, [at.q, at.v], |j| {
+            [q[j], v[j]].map(|size| moved[j] * size)
+        });
         noise.switching(out);
         out.iter_mut().for_each(|bound| *bound *= f64::EPSILON);
     }

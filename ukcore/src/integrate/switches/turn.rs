@@ -139,9 +139,10 @@ impl Equations<'_> {
                 }
                 Branch::Followed => {}
                 _ if g * branch.sign() > 0.0 => all.levels[k] = 0.0,
-                _ if all.inside(k, g) < 0.0 => all.levels[k] = g,
+                _ if all.is_outside(k, g) => all.levels[k] = g,
                 _ => {}
             }
+            self.switches.begin(k, g);
         }
     }
 
