@@ -38,9 +38,9 @@ const AT_END: f64 = 1e-13;
 const JUMP: f64 = 1e3;
 const ROUNDED: f64 = 1e-10;
 
-/// A function that stays within so many times its rounding of its zero does not leave it: what holds it there, as a constraint does the
-/// velocity in a joint that is locked, leaves as much.
-const ROUNDINGS: f64 = 4.0;
+/// A function that has never been farther from its zero than so many times its rounding does not leave it by as much: what holds it there,
+/// as a constraint does the velocity in a joint that is locked, leaves that.
+const ROUNDINGS: f64 = 16.0;
 
 /// Zeros of several functions within this part of a step are one.
 const TOGETHER: f64 = 1e-10;
@@ -63,10 +63,8 @@ pub(super) struct Switches {
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
-    /// How far beyond its zero each function is by rounding, where one was last beyond; and those of which are no farther from it at the
-    /// start of a step, else 0.
+    /// How far beyond its zero each function is by rounding, where one was last beyond.
     blurs: Vec<f64>,
-    bands: Vec<f64>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -93,7 +91,6 @@ impl Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
             blurs: vec![0.0; count],
-            bands: vec![0.0; count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -126,34 +123,27 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    /// Whether switch k with the value `g` is outside of its branch, by more than rounding where it began the step within that.
+    /// How far switch k may be outside of its branch: by rounding where it has never been farther.
+    fn band(&self, k: usize) -> f64 {
+        let blur = self.blurs[k];
+        if self.sizes[k] <= blur { blur } else { 0.0 }
+    }
+
+    /// Whether switch k with the value `g` is outside of its branch.
     pub(super) fn is_outside(&self, k: usize, g: f64) -> bool {
-        self.inside(k, g) < -self.bands[k]
+        self.inside(k, g) < -self.band(k)
     }
 
-    /// A step begins where switch k has the value `g`.
-    pub(super) fn begin(&mut self, k: usize, g: f64) {
-        let within = self.inside(k, g).abs() <= self.blurs[k];
-        self.bands[k] = if within { self.blurs[k] } else { 0.0 };
-    }
-
-    /// Takes the rounding of all functions on a step between two states, the lesser one of those at both: beside a place where a function
-    /// is steep, as acos is at 1, it has more than elsewhere. Whether any function begins the step within more of it than was known.
+    /// Takes the rounding of all functions at a state. Whether any has never been more than that.
     pub(super) fn blur(
         &mut self,
         problem: &mut dyn Problem,
-        ends: [Sample<'_>; 2],
+        at: Sample<'_>,
         least: &[f64],
     ) -> bool {
-        let (before, mut other) = (self.bands.clone(), self.bands.clone());
-        problem.switching_rounding(ends[0], least, &mut self.blurs);
-        problem.switching_rounding(ends[1], least, &mut other);
-        let pairs = self.blurs.iter_mut().zip(other);
-        pairs.for_each(|(blur, other)| *blur = ROUNDINGS * blur.min(other));
-        problem.switching(ends[0], &mut self.values);
-        (0..before.len()).for_each(|k| self.begin(k, self.values[k]));
-        let mut pairs = self.bands.iter().zip(before);
-        pairs.any(|(band, before)| *band > before)
+        problem.switching_rounding(at, least, &mut self.blurs);
+        self.blurs.iter_mut().for_each(|blur| *blur *= ROUNDINGS);
+        (0..self.blurs.len()).any(|k| self.band(k) > 0.0)
     }
 
     /// y' is to be evaluated at this state.

@@ -70,11 +70,11 @@ impl Driver<'_> {
         }
         let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;
-        let (coefficients, [old, new]) = (self.scheme.dense(), self.scheme.states());
+        let (coefficients, start) = (self.scheme.dense(), self.scheme.start());
         let (switches, problem) = (&mut equations.switches, &mut *equations.problem);
         let mut left = switches.search(problem, time, coefficients, [from, to]);
-        let ends = [Sample::of(time(0.0), old), Sample::of(time(1.0), new)];
-        if left.is_some() && switches.blur(problem, ends, &self.settings.tolerance.floors) {
+        let least = &self.settings.tolerance.floors;
+        if left.is_some() && switches.blur(problem, Sample::of(time(0.0), start), least) {
             left = switches.search(problem, time, coefficients, [from, to]);
         }
         match left {

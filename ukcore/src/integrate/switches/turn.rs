@@ -142,7 +142,6 @@ impl Equations<'_> {
                 _ if all.is_outside(k, g) => all.levels[k] = g,
                 _ => {}
             }
-            self.switches.begin(k, g);
         }
     }
 
