@@ -512,7 +512,7 @@ ukcore::multibody! {
 
 #[test]
 fn points_that_stand_still_have_the_velocity_zero() {
-    let found = outputs(&Slips::default(), &at(&[0.7], &[2.0]));
+    let found = outputs(Slips::default(), &at(&[0.7], &[2.0]));
     assert_close("a point that stands still", found[0], 0.0, 0.0);
     assert_close("a point that turns", found[1], 0.5, 1e-15);
 }
