@@ -85,7 +85,7 @@ impl Event {
         wanted.then_some(direction)
     }
 
-    /// Ends the run at the first crossing that counts; what others cross at the same time still counts.
+    /// Ends the run at the first crossing that counts; what others cross at the time at which that is located still counts.
     #[must_use]
     pub fn terminal(mut self) -> Self {
         self.terminal = true;
