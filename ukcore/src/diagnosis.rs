@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::State;
 use crate::displacements::{
-    INDEPENDENT, constraint_matrix, mass_matrix, measure, normalise, pivoted, quaternions, units,
+    INDEPENDENT, constraint_matrix, mass_matrix, measured, pivoted, quaternions, units,
 };
 use crate::error::Error;
 use crate::mechanism::Prepared;
@@ -293,11 +293,7 @@ fn independent(solver: &mut Solver, state: &State) -> Result<(usize, DMatrix<f64
 
 /// The rows of A at `state`, each of length 1 in the mass metric.
 pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
-    let units = units(mech, state);
-    let mut rows = constraint_matrix(mech, state);
-    measure(&mut rows, &units);
-    normalise(&mut rows);
-    rows
+    measured(constraint_matrix(mech, state), &units(mech, state))
 }
 
 /// Rows of A at `state`, measured and of length 1, but what they say of the lengths of quaternions, which the constraints of these keep: it

@@ -109,16 +109,21 @@ pub(crate) fn measure(rows: &mut DMatrix<f64>, units: &DVector<f64>) {
     }
 }
 
+/// `rows` [measured](measure) by `units`, each of length 1.
+pub(crate) fn measured(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+    measure(&mut rows, units);
+    normalise(&mut rows);
+    rows
+}
+
 /// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns. What no row knows of is in a column of
 /// its own.
-pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
     let n = rows.ncols();
     // Behind all others no reflection touches it.
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by_key(|j| rows.column(*j).amax() == 0.0);
-    measure(&mut rows, units);
-    normalise(&mut rows);
-    let (decomposed, pivots) = pivoted(&rows.select_columns(&order));
+    let (decomposed, pivots) = pivoted(&measured(rows, units).select_columns(&order));
     let basis = complement(n, &decomposed, independent(&pivots));
     let mut places = vec![0; n];
     order.iter().enumerate().for_each(|(k, j)| places[*j] = k);
@@ -200,12 +205,10 @@ pub(crate) fn reversed(mut before: DMatrix<f64>, mut after: DMatrix<f64>) -> boo
 /// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps
 /// beside those before it.
 pub(crate) fn decompose(
-    mut rows: DMatrix<f64>,
+    rows: DMatrix<f64>,
     units: &DVector<f64>,
 ) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
-    measure(&mut rows, units);
-    normalise(&mut rows);
-    pivoted(&rows)
+    pivoted(&measured(rows, units))
 }
 
 /// [`decompose`] of rows that are measured and of the lengths that they count with.

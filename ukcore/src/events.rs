@@ -242,8 +242,8 @@ impl Watch {
             }
             let sign = if t < t_old { -1.0 } else { 1.0 };
             crossings[found..].sort_by(|x, y| (sign * x.t).total_cmp(&(sign * y.t)));
-            let mut terminal = crossings.iter().filter(|c| events[c.event].terminal);
-            if let Some(end) = terminal.next().map(|c| c.t) {
+            let terminal = crossings.iter().find(|c| events[c.event].terminal);
+            if let Some(end) = terminal.map(|c| c.t) {
                 crossings.retain(|c| sign * c.t <= sign * end);
                 break;
             }

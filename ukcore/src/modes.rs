@@ -131,17 +131,18 @@ pub(crate) fn linear_motion(
     let together = TOGETHER * reduced.norm();
     let mut shapes: Vec<Found> = Vec::new();
     let reason = "has a linearised motion whose eigenvalues were not found";
-    let (mixed, alone) = isolated(&reduced);
-    let values = eigenvalues(&mixed).ok_or_else(|| Error::invalid("state", reason))?;
-    let alone = alone.into_iter().map(|x| Complex::new(x, 0.0));
-    let alone = alone.map(|x| (x, DMatrix::from_element(1, 1, x.re)));
-    let values = values.into_iter().map(|x| (x, mixed.clone())).chain(alone);
+    let blocks = isolated(&reduced);
+    let mut values = Vec::with_capacity(reduced.nrows());
+    for own in &blocks {
+        let found = eigenvalues(own).ok_or_else(|| Error::invalid("state", reason))?;
+        values.extend(found.into_iter().map(|value| (value, own)));
+    }
     // One of two conjugate ones tells of both.
-    for (value, own) in values.filter(|(value, _)| value.im >= 0.0) {
+    for (value, own) in values.into_iter().filter(|(value, _)| value.im >= 0.0) {
         let part = eigenvector(&reduced, value, 0);
         let left = reduced.map(|x| Complex::new(x, 0.0)) * &part - &part * value;
         let rounding = rounding.max(left.norm());
-        let could_be = |re, im| is_one(&own, value, Complex::new(re, im), rounding);
+        let could_be = |re, im| is_one(own, value, Complex::new(re, im), rounding);
         let (growth, frequency) = match value {
             _ if could_be(0.0, 0.0) => (0.0, 0.0),
             Complex { re, im } if swings && im >= re.abs() => (0.0, pace * im),

@@ -88,21 +88,22 @@ pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(values)
 }
 
-/// What is left of a square `matrix` without the rows and columns from which an eigenvalue can be read off, and these eigenvalues: where
-/// nothing but the diagonal is left of a row or column, no rounding of others changes it (LAPACK's `dgebal`). A coordinate that no
-/// equation contains, as where a vehicle is, has an eigenvalue of 0 so, which what it follows from does not mix with.
-pub(crate) fn isolated(matrix: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+/// Blocks of a square `matrix` that have its eigenvalues together: what is left without the rows and columns from which an eigenvalue can
+/// be read off, and each of these entries. Where nothing but the diagonal is left of a row or column, no rounding of others changes it
+/// (LAPACK's `dgebal`). A coordinate that no equation contains, as where a vehicle is, has an eigenvalue of 0 so, which what it follows
+/// from does not mix with.
+pub(crate) fn isolated(matrix: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+    let of = |all: &[usize]| matrix.select_rows(all).select_columns(all);
+    let is_alone = |k: usize, left: &[usize]| {
+        let none = |entry: &dyn Fn(usize) -> f64| left.iter().all(|i| *i == k || entry(*i) == 0.0);
+        none(&|i| matrix[(i, k)]) || none(&|i| matrix[(k, i)])
+    };
     let mut left: Vec<usize> = (0..matrix.nrows()).collect();
-    let mut values = Vec::new();
-    while let Some(place) = left.iter().position(|k| {
-        let mut others = left.iter().filter(|i| *i != k);
-        let mut along = others.clone();
-        others.all(|i| matrix[(*i, *k)] == 0.0) || along.all(|i| matrix[(*k, *i)] == 0.0)
-    }) {
-        let k = left.remove(place);
-        values.push(matrix[(k, k)]);
+    let mut alone = Vec::new();
+    while let Some(place) = left.iter().position(|k| is_alone(*k, &left)) {
+        alone.push(of(&[left.remove(place)]));
     }
-    (matrix.select_rows(&left).select_columns(&left), values)
+    std::iter::once(of(&left)).chain(alone).collect()
 }
 
 /// `matrix` measured by powers of two such that each row and its column are about as large as each other, which changes no eigenvalue
