@@ -218,8 +218,11 @@ pub(crate) trait Problem {
     }
     /// The g of all switches at a state.
     fn switching(&mut self, _at: Sample<'_>, _values: &mut [f64]) {}
-    /// The rounding of the g of all switches at a state, where projections leave rounding of these sizes at least.
-    fn switching_rounding(&mut self, _at: Sample<'_>, _least: &[f64], _out: &mut [f64]) {}
+    /// The rounding of the g of all switches at a state, where projections leave rounding of coordinates and velocities of the sizes
+    /// `floors` at least, below which the tolerance takes none.
+    fn switching_rounding(&mut self, _at: Sample<'_>, _floors: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+    }
     /// The g of all switches and their derivatives along a way, while the place on it varies.
     fn switching_along(&mut self, _t: Along, _q: &[Along], _v: &[Along], _values: &mut [Along]) {}
     /// The derivatives of the g of all switches by time at a state with these accelerations.

@@ -64,7 +64,7 @@ pub(super) struct Switches {
     /// it.
     levels: Vec<f64>,
     /// How far beyond its zero each function is by rounding, where one was last beyond.
-    blurs: Vec<f64>,
+    roundings: Vec<f64>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -90,7 +90,7 @@ impl Switches {
         Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
-            blurs: vec![0.0; count],
+            roundings: vec![0.0; count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -125,25 +125,23 @@ impl Switches {
 
     /// How far switch k may be outside of its branch: by rounding where it has never been farther.
     fn band(&self, k: usize) -> f64 {
-        let blur = self.blurs[k];
-        if self.sizes[k] <= blur { blur } else { 0.0 }
+        let rounding = self.roundings[k];
+        if self.sizes[k] <= rounding {
+            rounding
+        } else {
+            0.0
+        }
     }
 
     /// Whether switch k with the value `g` is outside of its branch.
-    pub(super) fn is_outside(&self, k: usize, g: f64) -> bool {
+    fn is_outside(&self, k: usize, g: f64) -> bool {
         self.inside(k, g) < -self.band(k)
     }
 
-    /// Takes the rounding of all functions at a state. Whether any has never been more than that.
-    pub(super) fn blur(
-        &mut self,
-        problem: &mut dyn Problem,
-        at: Sample<'_>,
-        least: &[f64],
-    ) -> bool {
-        problem.switching_rounding(at, least, &mut self.blurs);
-        self.blurs.iter_mut().for_each(|blur| *blur *= ROUNDINGS);
-        (0..self.blurs.len()).any(|k| self.band(k) > 0.0)
+    /// Takes the rounding of all functions at a state, where coordinates and velocities are known to these sizes.
+    pub(super) fn round(&mut self, problem: &mut dyn Problem, at: Sample<'_>, floors: &[f64]) {
+        problem.switching_rounding(at, floors, &mut self.roundings);
+        self.roundings.iter_mut().for_each(|own| *own *= ROUNDINGS);
     }
 
     /// y' is to be evaluated at this state.
@@ -184,7 +182,7 @@ impl Switches {
         }
         let mut found = None;
         let mut a = from;
-        let mut parts = self.dips.clone();
+        let mut parts = std::mem::take(&mut self.dips);
         parts.extend((1..PARTS).map(|part| part as f64 / PARTS as f64));
         parts.push(to);
         if from > 0.0 {

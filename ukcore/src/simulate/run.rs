@@ -278,7 +278,7 @@ impl Problem for Run<'_> {
         mechanism.switching(at.t, at.q, at.v, values);
     }
 
-    fn switching_rounding(&mut self, at: Sample<'_>, least: &[f64], out: &mut [f64]) {
+    fn switching_rounding(&mut self, at: Sample<'_>, floors: &[f64], out: &mut [f64]) {
         let mechanism = self.solver.mechanism();
         let noise = self.noise.get_or_insert_with(|| Noise::new(mechanism));
         // Constraints leave it in what stands in them; the rest is known as well as it is large.
@@ -286,7 +286,7 @@ impl Problem for Run<'_> {
         for (_, j) in mechanism.spec().structure.jacobian_pattern {
             moved[*j] = 1.0;
         }
-        let (q, v) = least.split_at(at.q.len());
+        let (q, v) = floors.split_at(at.q.len());
         noise.go(mechanism, at.t, [at.q, at.v], |j| {
             [q[j], v[j]].map(|size| moved[j] * size)
         });

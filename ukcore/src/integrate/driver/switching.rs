@@ -72,12 +72,9 @@ impl Driver<'_> {
         stages.map_err(Refusal::End)?;
         let (coefficients, start) = (self.scheme.dense(), self.scheme.start());
         let (switches, problem) = (&mut equations.switches, &mut *equations.problem);
-        let mut left = switches.search(problem, time, coefficients, [from, to]);
-        let least = &self.settings.tolerance.floors;
-        if left.is_some() && switches.blur(problem, Sample::of(time(0.0), start), least) {
-            left = switches.search(problem, time, coefficients, [from, to]);
-        }
-        match left {
+        let floors = &self.settings.tolerance.floors;
+        switches.round(problem, Sample::of(time(0.0), start), floors);
+        match switches.search(problem, time, coefficients, [from, to]) {
             None => {}
             Some(Leaving::AtEnd(targets)) => equations.switches.targets.extend(targets),
             Some(leaving) => return Err(Refusal::Leaves(leaving, error)),

@@ -107,7 +107,7 @@ impl Equations<'_> {
     }
 
     /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.
-    fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
+    pub(super) fn is_smooth(&mut self, switches: &[usize], y: &[f64]) -> bool {
         let Some(here) = self.sides(switches, 0.0, y) else {
             return false;
         };

@@ -167,9 +167,10 @@ impl Equations<'_> {
         self.set_branch(&rest, Branch::Followed, y);
         self.set_branch(&down, Branch::Negative, y);
         let back = self.driven_out(&down, y);
-        // Driven back from both sides, it may stay between them: at rest under friction, without a force.
+        // Driven back from both sides, it may stay between them: at rest under friction, without a force, or where a constraint leaves it
+        // no way, and friction makes nothing.
         self.set_branch(&back, Branch::Followed, y);
-        match self.at_rest(&back, y).len() == back.len() {
+        match self.at_rest(&back, y).len() == back.len() || self.is_smooth(&back, y) {
             true => Ok(zeros),
             false => Err(Stuck(back)),
         }
