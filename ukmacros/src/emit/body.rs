@@ -1,11 +1,12 @@
-//! Statements of one emitted function.
+//! Statements of one emitted function, as text: it is what is shown of it, and becomes tokens in one step.
 
 use super::names::{Namer, Slots, plain};
+use super::tokens;
 use crate::analysis::{Function, Place, Program, Role, Slice, Step};
 use crate::expr::{Graph, Id, Node, Symbol, System};
 use crate::model::Model;
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::TokenStream;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// A function to write.
@@ -27,7 +28,7 @@ const GROUP: usize = 64;
 const VAST: usize = 2000;
 
 /// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
-pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
+pub(super) fn body(writing: &Writing<'_>) -> String {
     let Writing {
         system,
         model,
@@ -44,9 +45,8 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let purpose = |root: usize| writing.purpose(roots[root].0);
     let exits: HashSet<Id> = function.exits.iter().copied().collect();
     let (many, vast) = (program.steps.len() > MANY, program.steps.len() > VAST);
-    let declare = (!many).then(|| quote! { let });
-    let (mut statements, mut group, mut declared) =
-        (TokenStream::new(), TokenStream::new(), Vec::new());
+    let declare = if many { "" } else { "let " };
+    let (mut statements, mut group, mut declared) = (inputs, String::new(), Vec::new());
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
     for step in &program.steps {
@@ -59,16 +59,16 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
                     false => format!("{}_part", purpose(next)),
                 };
                 let name = writer.namer.declare(id, &purpose);
-                group.extend(quote! { #declare #name = #value; });
+                group += &format!("{declare}{name} = {value}; ");
                 if exits.contains(&id) {
-                    group.extend(quote! { if #name.is_zero() { return #name; } });
+                    group += &format!("if {name}.is_zero() {{ return {name}; }} ");
                 }
                 declared.push(name);
             }
             Step::Reciprocal(id) => {
                 let receiver = writer.receiver(id);
                 let name = writer.namer.declare_reciprocal(id, &purpose(next));
-                group.extend(quote! { #declare #name = #receiver.recip(); });
+                group += &format!("{declare}{name} = {receiver}.recip(); ");
                 declared.push(name);
             }
             Step::SinCos { sin, cos } => {
@@ -76,42 +76,41 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
                 let argument = writer.receiver(argument);
                 let sin = writer.namer.declare(sin, &purpose(next));
                 let cos = writer.namer.declare(cos, &purpose(next));
-                group.extend(quote! { #declare (#sin, #cos) = #argument.sin_cos(); });
+                group += &format!("{declare}({sin}, {cos}) = {argument}.sin_cos(); ");
                 declared.extend([sin, cos]);
             }
             Step::Store(k) => {
                 let (place, id) = roots[k];
                 let value = writer.expression(id);
                 let place = stored(place);
-                group.extend(quote! { #place = #value; });
+                group += &format!("{place} = {value}; ");
                 next = (k + 1).min(roots.len() - 1);
             }
         }
         if declared.len() >= GROUP {
-            let names = std::mem::take(&mut declared);
-            let names = many.then(|| quote! { let (#(#names),*); });
-            let border = vast.then(|| quote! { ukcore::emitted::border(); });
-            statements.extend(quote! { #names #group #border });
-            group = TokenStream::new();
+            let names = std::mem::take(&mut declared).join(", ");
+            if many {
+                statements += &format!("let ({names}); ");
+            }
+            statements += &std::mem::take(&mut group);
+            if vast {
+                statements += "ukcore::emitted::border(); ";
+            }
         }
     }
-    let names = (many && !declared.is_empty()).then(|| quote! { let (#(#declared,)*); });
-    quote! { #inputs #statements #names #group }
+    if many && !declared.is_empty() {
+        statements += &format!("let ({},); ", declared.join(", "));
+    }
+    statements + &group
 }
 
 /// The left side of an assignment to `place`.
-fn stored(place: Place) -> TokenStream {
+fn stored(place: Place) -> String {
     match place {
-        Place::Element(slice, at) => {
-            let (slice, at) = (
-                format_ident!("{}", slice.name()),
-                Literal::usize_unsuffixed(at),
-            );
-            quote! { #slice[#at] }
-        }
-        Place::Kinetic => quote! { let kinetic },
-        Place::Potential => quote! { let potential },
-        Place::Certificate => quote! { let safe },
+        Place::Element(slice, at) => format!("{}[{at}]", slice.name()),
+        Place::Kinetic => "let kinetic".to_owned(),
+        Place::Potential => "let potential".to_owned(),
+        Place::Certificate => "let safe".to_owned(),
     }
 }
 
@@ -156,8 +155,11 @@ enum Operator {
 /// Sums of more terms are written in parts: the compiler of the emitted code recurses on `a.mul_add(b, c.mul_add(d, …))`.
 const LONGEST: usize = 64;
 
+/// An expression, and its outermost operator.
+type Written = (String, Operator);
+
 /// Factors of a product, each wrapped so that it can be multiplied.
-type Factors = Vec<(TokenStream, Operator)>;
+type Factors = Vec<Written>;
 
 struct Writer<'a> {
     graph: &'a Graph,
@@ -172,13 +174,13 @@ impl Writer<'_> {
         constraints: usize,
         prepared: Slots<'_>,
         program: &Program,
-    ) -> TokenStream {
+    ) -> String {
         let symbol = |id: &Id| match self.graph.node(*id) {
             Node::Symbol(symbol) => Some(*symbol),
             _ => None,
         };
         let used: HashSet<Symbol> = program.needed.iter().filter_map(symbol).collect();
-        let mut out = TokenStream::new();
+        let mut out = String::new();
         let n = model.coord_elements.len();
         let params = model.param_elements.len() + prepared.options.len();
         let all = |n: usize, symbol: fn(usize) -> Symbol| (0..n).map(symbol).collect::<Vec<_>>();
@@ -189,24 +191,19 @@ impl Writer<'_> {
             ("v", all(n, Symbol::Velocity)),
             ("residual", all(constraints, Symbol::Residual)),
         ] {
-            let slice = format_ident!("{text}");
-            let names: Vec<Option<Ident>> = symbols
-                .iter()
-                .map(|s| used.contains(s).then(|| self.namer.symbol(*s)))
-                .collect();
-            if names.iter().any(Option::is_some) {
-                let patterns = names.iter().map(|name| match name {
-                    Some(name) => quote! { #name },
-                    None => quote! { _ },
+            if symbols.iter().any(|s| used.contains(s)) {
+                let names = symbols.iter().map(|s| match used.contains(s) {
+                    true => self.namer.symbol(*s),
+                    false => "_",
                 });
-                let n = Literal::usize_unsuffixed(symbols.len());
-                out.extend(quote! {
-                    let [#(#patterns),*] = *ukcore::emitted::exact::<S, #n>(#slice, #text);
-                });
+                let (names, n) = (names.collect::<Vec<_>>().join(", "), symbols.len());
+                out += &format!(
+                    "let [{names}] = *ukcore::emitted::exact::<S, {n}>({text}, \"{text}\"); "
+                );
             }
         }
         if program.needed.iter().any(|id| self.has_literal(*id)) {
-            out.extend(quote! { let lit = S::from_f64; });
+            out += "let lit = S::from_f64; ";
         }
         out
     }
@@ -224,37 +221,34 @@ impl Writer<'_> {
     }
 
     /// The variable of `id`, or its expression.
-    fn expression(&self, id: Id) -> TokenStream {
+    fn expression(&self, id: Id) -> String {
         self.write(id).0
     }
 
-    fn write(&self, id: Id) -> (TokenStream, Operator) {
+    fn write(&self, id: Id) -> Written {
         match self.namer.variable(id) {
-            Some(name) => (quote! { #name }, Operator::Call),
+            Some(name) => (name.to_owned(), Operator::Call),
             None => self.node(id),
         }
     }
 
-    fn definition(&self, id: Id) -> TokenStream {
+    fn definition(&self, id: Id) -> String {
         self.node(id).0
     }
 
-    fn wrapped(&self, id: Id, least: Operator) -> TokenStream {
+    fn wrapped(&self, id: Id, least: Operator) -> String {
         wrap(self.write(id), least).0
     }
 
     /// The value of `id` as the receiver of a method.
-    fn receiver(&self, id: Id) -> TokenStream {
+    fn receiver(&self, id: Id) -> String {
         self.wrapped(id, Operator::Call)
     }
 
-    fn node(&self, id: Id) -> (TokenStream, Operator) {
+    fn node(&self, id: Id) -> Written {
         match self.graph.node(id) {
             Node::Const(x) => (constant(x.get()), Operator::Call),
-            Node::Symbol(s) => {
-                let name = self.namer.symbol(*s);
-                (quote! { #name }, Operator::Call)
-            }
+            Node::Symbol(s) => (self.namer.symbol(*s).to_owned(), Operator::Call),
             Node::Sum(c, terms) => {
                 let terms: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (k.get(), *t)).collect();
                 self.sum(c.get(), &terms)
@@ -263,23 +257,27 @@ impl Writer<'_> {
             Node::Product(factors) => self.product(factors),
             Node::Held(inner) => self.write(*inner),
             Node::Call(func, args) => {
-                let receiver = self.receiver(args[0]);
-                let name = format_ident!("{}", func.row().name);
-                let rest = args[1..].iter().map(|a| self.expression(*a));
-                (quote! { #receiver.#name(#(#rest),*) }, Operator::Call)
+                let (receiver, name) = (self.receiver(args[0]), func.row().name);
+                let rest = self.listed(&args[1..]);
+                (format!("{receiver}.{name}({rest})"), Operator::Call)
             }
             Node::Select(args) => {
-                let args = args.map(|id| self.expression(id));
-                (quote! { S::select_le(#(#args),*) }, Operator::Call)
+                let args = self.listed(args);
+                (format!("S::select_le({args})"), Operator::Call)
             }
         }
     }
 
+    fn listed(&self, ids: &[Id]) -> String {
+        let all: Vec<String> = ids.iter().map(|id| self.expression(*id)).collect();
+        all.join(", ")
+    }
+
     /// Products are added in one step where the processor can.
-    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> (TokenStream, Operator) {
+    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> Written {
         let (leading, terms) = ascending(self.graph, c, terms.to_vec());
         let mut out = None;
-        let mut before = TokenStream::new();
+        let mut before = String::new();
         if leading {
             out = Some((constant(c), Operator::Call));
         }
@@ -287,8 +285,8 @@ impl Writer<'_> {
             if at % LONGEST == LONGEST - 1
                 && let Some((sum, _)) = out
             {
-                before.extend(quote! { let sum = #sum; });
-                out = Some((quote! { sum }, Operator::Call));
+                before += &format!("let sum = {sum}; ");
+                out = Some(("sum".to_owned(), Operator::Call));
             }
             let factors = self.term(k.abs(), *term);
             let negative = *k < 0.0;
@@ -302,7 +300,7 @@ impl Writer<'_> {
                     false => product,
                     true => {
                         let (product, _) = wrap(product, Operator::Call);
-                        (quote! { -#product }, Operator::Sign)
+                        (format!("-{product}"), Operator::Sign)
                     }
                 });
                 continue;
@@ -313,21 +311,18 @@ impl Writer<'_> {
                     let receiver = match factors {
                         [factor] => wrap(factor.clone(), Operator::Call).0,
                         _ => {
-                            let product = join(factors);
-                            quote! { (#product) }
+                            format!("({})", join(factors))
                         }
                     };
                     let method = if negative { "neg_mul_add" } else { "mul_add" };
-                    let method = format_ident!("{method}");
-                    (quote! { #receiver.#method(#last, #sum) }, Operator::Call)
+                    (
+                        format!("{receiver}.{method}({last}, {sum})"),
+                        Operator::Call,
+                    )
                 }
                 factors => {
-                    let factor = join(factors);
-                    let sum = match negative {
-                        true => quote! { #sum - #factor },
-                        false => quote! { #sum + #factor },
-                    };
-                    (sum, Operator::Sum)
+                    let (sign, factor) = (if negative { '-' } else { '+' }, join(factors));
+                    (format!("{sum} {sign} {factor}"), Operator::Sum)
                 }
             });
         }
@@ -335,13 +330,13 @@ impl Writer<'_> {
         let value = constant(c.abs());
         let (sum, operator) = match c {
             _ if c == 0.0 || leading => (sum, operator),
-            _ if c > 0.0 => (quote! { #sum + #value }, Operator::Sum),
-            _ => (quote! { #sum - #value }, Operator::Sum),
+            _ if c > 0.0 => (format!("{sum} + {value}"), Operator::Sum),
+            _ => (format!("{sum} - {value}"), Operator::Sum),
         };
         match before.is_empty() {
             true => (sum, operator),
             // In parentheses, as a statement may begin with it.
-            false => (quote! { ({ #before #sum }) }, Operator::Call),
+            false => (format!("({{ {before}{sum} }})"), Operator::Call),
         }
     }
 
@@ -371,7 +366,7 @@ impl Writer<'_> {
         out
     }
 
-    fn scale(&self, c: f64, inner: Id) -> (TokenStream, Operator) {
+    fn scale(&self, c: f64, inner: Id) -> Written {
         // −(a − b) is b − a.
         if c == -1.0
             && self.namer.variable(inner).is_none()
@@ -382,24 +377,24 @@ impl Writer<'_> {
         }
         if c == -1.0 {
             let factor = self.wrapped(inner, Operator::Call);
-            return (quote! { -#factor }, Operator::Sign);
+            return (format!("-{factor}"), Operator::Sign);
         }
         let (value, factor) = (constant(c), self.wrapped(inner, Operator::Sign));
-        (quote! { #value * #factor }, Operator::Product)
+        (format!("{value} * {factor}"), Operator::Product)
     }
 
-    fn product(&self, factors: &[(Id, i32)]) -> (TokenStream, Operator) {
+    fn product(&self, factors: &[(Id, i32)]) -> Written {
         let (above, below) = self.sides(factors);
         let (top, bottom) = (join(&above), join(&below));
         match (above.is_empty(), below.is_empty()) {
             (_, true) => (top, Operator::Product),
             (true, false) if matches!(factors, [(_, -1)]) => {
                 let base = self.receiver(factors[0].0);
-                (quote! { #base.recip() }, Operator::Call)
+                (format!("{base}.recip()"), Operator::Call)
             }
-            (true, false) => (quote! { (#bottom).recip() }, Operator::Call),
-            (false, false) if below.len() == 1 => (quote! { #top / #bottom }, Operator::Product),
-            (false, false) => (quote! { #top / (#bottom) }, Operator::Product),
+            (true, false) => (format!("({bottom}).recip()"), Operator::Call),
+            (false, false) if below.len() == 1 => (format!("{top} / {bottom}"), Operator::Product),
+            (false, false) => (format!("{top} / ({bottom})"), Operator::Product),
         }
     }
 
@@ -410,7 +405,7 @@ impl Writer<'_> {
             if exponent == -1
                 && let Some(name) = self.namer.reciprocal(base)
             {
-                sides.0.push((quote! { #name }, Operator::Call));
+                sides.0.push((name.to_owned(), Operator::Call));
                 continue;
             }
             let side = if exponent > 0 {
@@ -421,9 +416,8 @@ impl Writer<'_> {
             let n = exponent.unsigned_abs();
             // Squares and cubes are written out.
             if n > 3 {
-                let receiver = self.receiver(base);
-                let n = Literal::i32_unsuffixed(exponent.saturating_abs());
-                side.push((quote! { #receiver.powi(#n) }, Operator::Call));
+                let (receiver, n) = (self.receiver(base), exponent.saturating_abs());
+                side.push((format!("{receiver}.powi({n})"), Operator::Call));
                 continue;
             }
             let factor = wrap(self.write(base), Operator::Sign);
@@ -456,56 +450,43 @@ pub(super) fn known_first(graph: &Graph, factors: &[(Id, i32)]) -> Vec<(Id, i32)
 }
 
 /// a * b * c
-fn join(factors: &[(TokenStream, Operator)]) -> TokenStream {
-    let mut product = TokenStream::new();
-    for (k, (factor, _)) in factors.iter().enumerate() {
-        let times = (k > 0).then(|| quote! { * });
-        product.extend(quote! { #times #factor });
-    }
-    product
+fn join(factors: &[Written]) -> String {
+    let factors: Vec<&str> = factors.iter().map(|(factor, _)| factor.as_str()).collect();
+    factors.join(" * ")
 }
 
 /// Puts an expression in parentheses unless it binds as tightly as `least`.
-fn wrap((tokens, operator): (TokenStream, Operator), least: Operator) -> (TokenStream, Operator) {
+fn wrap((text, operator): Written, least: Operator) -> Written {
     match operator < least {
-        true => (quote! { (#tokens) }, Operator::Call),
-        false => (tokens, operator),
+        true => (format!("({text})"), Operator::Call),
+        false => (text, operator),
     }
 }
 
 /// A number as a scalar; a negative one as the negation, π by its name.
-fn constant(x: f64) -> TokenStream {
-    let value = float(x);
-    quote! { lit(#value) }
+fn constant(x: f64) -> String {
+    format!("lit({})", literal(x))
 }
 
 /// A literal `f64`.
 pub(super) fn float(x: f64) -> TokenStream {
-    let name = [
-        (std::f64::consts::PI, "PI"),
-        (std::f64::consts::TAU, "TAU"),
-        (std::f64::consts::FRAC_PI_2, "FRAC_PI_2"),
-    ]
-    .into_iter()
-    .find(|(value, _)| *value == x.abs());
-    let magnitude = match name {
-        Some((_, name)) => {
-            let name = format_ident!("{name}");
-            quote! { ::core::f64::consts::#name }
-        }
-        None if x.is_nan() => quote! { f64::NAN },
-        None if x.is_infinite() => quote! { f64::INFINITY },
-        None => {
-            let x = x.abs();
-            let plain = x == 0.0 || (1e-6..1e16).contains(&x);
-            let power = (!plain).then(|| format!("{x:e}").parse().ok()).flatten();
-            let literal: Literal = power.unwrap_or_else(|| Literal::f64_unsuffixed(x));
-            quote! { #literal }
-        }
+    tokens(&literal(x))
+}
+
+fn literal(x: f64) -> String {
+    let size = x.abs();
+    let magnitude: Cow<'_, str> = match size {
+        std::f64::consts::PI => "::core::f64::consts::PI".into(),
+        std::f64::consts::TAU => "::core::f64::consts::TAU".into(),
+        std::f64::consts::FRAC_PI_2 => "::core::f64::consts::FRAC_PI_2".into(),
+        _ if x.is_nan() => "f64::NAN".into(),
+        _ if x.is_infinite() => "f64::INFINITY".into(),
+        _ if size != 0.0 && !(1e-6..1e16).contains(&size) => format!("{size:e}").into(),
+        _ if size.fract() == 0.0 => format!("{size}.0").into(),
+        _ => size.to_string().into(),
     };
-    if x.is_sign_negative() && !x.is_nan() {
-        quote! { -#magnitude }
-    } else {
-        magnitude
+    match x.is_sign_negative() && !x.is_nan() {
+        true => format!("-{magnitude}"),
+        false => magnitude.into_owned(),
     }
 }

@@ -3,6 +3,7 @@
 use super::functions::signature;
 use super::implementation;
 use super::item::{associated, item, parameters};
+use super::tokens;
 use crate::analysis::{Constant, Role};
 use crate::expr::System;
 use crate::model::Model;
@@ -34,10 +35,11 @@ pub(crate) fn fallback(
     let parameters = parameters(model);
     let name = decl.name.to_string();
     let functions = REQUIRED.map(|role| {
-        let signature = signature(role);
-        let energy =
-            (role == Role::Energy).then(|| quote! { ukcore::Energy { kinetic: t, potential: t } });
-        quote! { #signature { #energy } }
+        let energy = match role {
+            Role::Energy => "ukcore::Energy { kinetic: t, potential: t }",
+            _ => "",
+        };
+        tokens(&format!("{} {{ {energy} }}", signature(role)))
     });
     let implementation = implementation(
         decl,

@@ -4,6 +4,7 @@ use super::body::{Writing, body};
 use super::item::doc;
 use super::names::Slots;
 use super::tape::tape;
+use super::tokens;
 use crate::analysis::{Analysis, Function, Role, Slice, of_parameters};
 use crate::expr::{Id, System};
 use crate::model::Model;
@@ -26,7 +27,7 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
             },
         };
         let (slices, body) = statements(function, system, model, slots);
-        let (name, text) = (role.name(), format!("{signature} {{ {slices} {body} }}"));
+        let (name, text) = (role.name(), format!("{signature} {{ {slices}{body} }}"));
         texts.extend(quote! { (#name, #text), });
         let counted = [Role::Dynamics, Role::Acceleration].contains(&role);
         let counts = counted.then(|| {
@@ -38,6 +39,7 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
         });
         let sizes = (model.coord_elements.len(), model.param_elements.len());
         let tape = tape(system, function, slots, sizes);
+        let [signature, slices, body] = [signature, slices, body].map(|text| tokens(&text));
         functions.extend(quote! { #counts #signature { #slices #tape #body } });
     }
     let inertias = inertias(system, model);
@@ -108,46 +110,42 @@ fn guesses(system: &System, model: &Model) -> Option<TokenStream> {
 /// `numbers`, the values of `ids` by what is `given`: parameters, then `options`.
 fn numbers(ids: &[Id], options: &[String], system: &System, model: &Model) -> TokenStream {
     let function = of_parameters(system, ids);
-    let (count, signature) = (
-        Literal::usize_unsuffixed(ids.len()),
-        signature(function.role),
-    );
+    let count = Literal::usize_unsuffixed(ids.len());
     let slots = Slots {
         options,
         ..Slots::default()
     };
+    let signature = signature(function.role);
     let (slices, body) = statements(&function, system, model, slots);
+    let prepare = tokens(&format!("{signature} {{ {slices}{body} }}"));
     quote! {
-        #signature { #slices #body }
+        #prepare
         let mut numbers = [0.0; #count];
         prepare(given, &mut numbers);
     }
 }
 
 /// `fn name<S: ukcore::Scalar>(…) -> …`.
-pub(super) fn signature(role: Role) -> TokenStream {
-    let name = format_ident!("{}", role.name());
-    let position = quote! { prepared: &[S], t: S, q: &[S] };
-    let state = quote! { #position, v: &[S] };
-    let (arguments, result) = match role {
-        Role::Prepare => (quote! { given: &[S], prepared: &mut [S] }, None),
-        Role::Dynamics => (quote! { #state, out: &mut ukcore::Terms<'_, S> }, None),
-        Role::MassMatrix => (quote! { #position, mass: &mut [S] }, None),
-        Role::Residual => (quote! { #position, phi: &mut [S] }, None),
-        Role::Jacobian => (quote! { #state, jacobian: &mut [S] }, None),
-        Role::ResidualRate => (quote! { #state, rate: &mut [S] }, None),
-        Role::Outputs => (quote! { #state, outputs: &mut [S] }, None),
-        Role::Integrands => (quote! { #state, integrands: &mut [S] }, None),
-        Role::Drawing => (quote! { #state, drawing: &mut [S] }, None),
-        Role::Switching => (quote! { #state, switching: &mut [S] }, None),
-        Role::Energy => (state, Some(quote! { -> ukcore::Energy<S> })),
-        Role::Acceleration => (quote! { #state, out: &mut [S] }, Some(quote! { -> S })),
-        Role::Correction => (
-            quote! { #state, residual: &[S], out: &mut [S] },
-            Some(quote! { -> S }),
-        ),
+pub(super) fn signature(role: Role) -> String {
+    let position = "prepared: &[S], t: S, q: &[S]";
+    let state = "prepared: &[S], t: S, q: &[S], v: &[S]";
+    let (given, written, result) = match role {
+        Role::Prepare => ("given: &[S]", ", prepared: &mut [S]", ""),
+        Role::Dynamics => (state, ", out: &mut ukcore::Terms<'_, S>", ""),
+        Role::MassMatrix => (position, ", mass: &mut [S]", ""),
+        Role::Residual => (position, ", phi: &mut [S]", ""),
+        Role::Jacobian => (state, ", jacobian: &mut [S]", ""),
+        Role::ResidualRate => (state, ", rate: &mut [S]", ""),
+        Role::Outputs => (state, ", outputs: &mut [S]", ""),
+        Role::Integrands => (state, ", integrands: &mut [S]", ""),
+        Role::Drawing => (state, ", drawing: &mut [S]", ""),
+        Role::Switching => (state, ", switching: &mut [S]", ""),
+        Role::Energy => (state, "", " -> ukcore::Energy<S>"),
+        Role::Acceleration => (state, ", out: &mut [S]", " -> S"),
+        Role::Correction => (state, ", residual: &[S], out: &mut [S]", " -> S"),
     };
-    quote! { fn #name<S: ukcore::Scalar>(#arguments) #result }
+    let name = role.name();
+    format!("fn {name}<S: ukcore::Scalar>({given}{written}){result}")
 }
 
 /// The slices that `function` writes to with their lengths; what it computes, and its result.
@@ -156,19 +154,17 @@ fn statements(
     system: &System,
     model: &Model,
     prepared: Slots<'_>,
-) -> (TokenStream, TokenStream) {
+) -> (String, String) {
     let role = function.role;
     let slices = function.slices.iter();
     // There may be nothing to prepare.
     let slices = slices.filter(|(_, len)| role != Role::Prepare || *len > 0);
     let slices = slices.map(|(slice, len)| {
-        let (text, len) = (slice.name(), Literal::usize_unsuffixed(*len));
-        let name = format_ident!("{text}");
-        let given = match role {
-            Role::Dynamics => quote! { out.#name },
-            _ => quote! { #name },
-        };
-        quote! { let #name = ukcore::emitted::exact_mut::<S, #len>(#given, #text); }
+        let (name, within) = (
+            slice.name(),
+            if role == Role::Dynamics { "out." } else { "" },
+        );
+        format!("let {name} = ukcore::emitted::exact_mut::<S, {len}>({within}{name}, \"{name}\"); ")
     });
     let body = body(&Writing {
         system,
@@ -177,11 +173,11 @@ fn statements(
         function,
     });
     let result = match role {
-        Role::Energy => Some(quote! { ukcore::Energy { kinetic, potential } }),
-        Role::Acceleration | Role::Correction => Some(quote! { safe }),
-        _ => None,
+        Role::Energy => "ukcore::Energy { kinetic, potential }",
+        Role::Acceleration | Role::Correction => "safe",
+        _ => "",
     };
-    (quote! { #(#slices)* }, quote! { #body #result })
+    (slices.collect(), body + result)
 }
 
 impl Role {

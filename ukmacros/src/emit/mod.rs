@@ -63,3 +63,21 @@ fn implementation(decl: &Declaration, system: &System, members: &TokenStream) ->
         };
     }
 }
+
+/// Code that is written as text.
+fn tokens(text: &str) -> TokenStream {
+    // (Of its own accord `proc_macro2` would read all of it once more.)
+    let parsed = match proc_macro::is_available() {
+        true => text
+            .parse()
+            .map(|all: proc_macro::TokenStream| all.into())
+            .map_err(|error| error.to_string()),
+        false => text
+            .parse()
+            .map_err(|error: proc_macro2::LexError| error.to_string()),
+    };
+    parsed.unwrap_or_else(|error| {
+        let message = format!("defect in `multibody!`: {error} in {text}; please report it");
+        quote! { ::core::compile_error!(#message); }
+    })
+}

@@ -2,8 +2,6 @@
 
 use crate::expr::{Graph, Id, Map, Node, Symbol};
 use crate::model::Model;
-use proc_macro2::Ident;
-use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
@@ -133,37 +131,37 @@ impl<'a> Namer<'a> {
         name
     }
 
-    pub(super) fn symbol(&self, symbol: Symbol) -> Ident {
-        format_ident!("{}", self.symbols[&symbol])
+    pub(super) fn symbol(&self, symbol: Symbol) -> &str {
+        &self.symbols[&symbol]
     }
 
     /// The variable that holds `id`, if it has one.
-    pub(super) fn variable(&self, id: Id) -> Option<Ident> {
-        self.variables.get(&id).map(|n| format_ident!("{n}"))
+    pub(super) fn variable(&self, id: Id) -> Option<&str> {
+        self.variables.get(&id).map(String::as_str)
     }
 
     /// Makes a variable for `id`, named for what it is, or else for its `purpose`.
-    pub(super) fn declare(&mut self, id: Id, purpose: &str) -> Ident {
+    pub(super) fn declare(&mut self, id: Id, purpose: &str) -> String {
         let wish = match self.hints.get(&id) {
             Some(hint) => snake(hint),
             None => self.compose(id).unwrap_or_else(|| purpose.to_owned()),
         };
         let name = self.fresh(&wish);
         self.variables.insert(id, name.clone());
-        format_ident!("{name}")
+        name
     }
 
     /// The variable that holds 1/`id`, if there is one.
-    pub(super) fn reciprocal(&self, id: Id) -> Option<Ident> {
-        self.reciprocals.get(&id).map(|n| format_ident!("{n}"))
+    pub(super) fn reciprocal(&self, id: Id) -> Option<&str> {
+        self.reciprocals.get(&id).map(String::as_str)
     }
 
     /// Makes a variable for 1/`id`.
-    pub(super) fn declare_reciprocal(&mut self, id: Id, purpose: &str) -> Ident {
+    pub(super) fn declare_reciprocal(&mut self, id: Id, purpose: &str) -> String {
         let of = self.atom(id).unwrap_or_else(|| purpose.to_owned());
         let name = self.fresh(&format!("per_{of}"));
         self.reciprocals.insert(id, name.clone());
-        format_ident!("{name}")
+        name
     }
 
     /// A name made of the names of the operands, if short.
