@@ -63,8 +63,8 @@ pub(super) struct Switches {
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
-    /// How far beyond its zero each function is by rounding, where one was last beyond.
-    roundings: Vec<f64>,
+    /// How far beyond its zero each function is by rounding, where one was last beyond; none of one that has been farther from it.
+    roundings: Vec<Option<f64>>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -90,7 +90,7 @@ impl Switches {
         Switches {
             branches: vec![Branch::Followed; count],
             levels: vec![0.0; count],
-            roundings: vec![0.0; count],
+            roundings: vec![Some(0.0); count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -126,11 +126,7 @@ impl Switches {
     /// How far switch k may be outside of its branch: by rounding where it has never been farther.
     fn band(&self, k: usize) -> f64 {
         let rounding = self.roundings[k];
-        if self.sizes[k] <= rounding {
-            rounding
-        } else {
-            0.0
-        }
+        rounding.filter(|own| self.sizes[k] <= *own).unwrap_or(0.0)
     }
 
     /// Whether switch k with the value `g` is outside of its branch.
@@ -138,10 +134,17 @@ impl Switches {
         self.inside(k, g) < -self.band(k)
     }
 
-    /// Takes the rounding of all functions at a state, where coordinates and velocities are known to these sizes.
+    /// Takes the rounding of functions at a state, where coordinates and velocities are known to these sizes.
     pub(super) fn round(&mut self, problem: &mut dyn Problem, at: Sample<'_>, floors: &[f64]) {
-        problem.switching_rounding(at, floors, &mut self.roundings);
-        self.roundings.iter_mut().for_each(|own| *own *= ROUNDINGS);
+        if self.roundings.iter().all(Option::is_none) {
+            return;
+        }
+        problem.switching_rounding(at, floors, &mut self.values);
+        for (k, own) in self.roundings.iter_mut().enumerate() {
+            let size = self.sizes[k];
+            *own = own.and(Some(ROUNDINGS * self.values[k]));
+            *own = own.filter(|own| size <= *own);
+        }
     }
 
     /// y' is to be evaluated at this state.
