@@ -301,23 +301,35 @@ pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::R
     Ok(Entry { docs, key, value })
 }
 
-/// `start name(option = number, …) until number { guesses }`.
+/// `start name(option = number, …) until number { guesses }`. What is known of it stays where there is an error.
 pub(super) fn start(
     input: ParseStream<'_>,
     docs: Vec<String>,
+    starts: &mut Vec<Start>,
     diag: &Diagnostics,
-) -> syn::Result<Start> {
+) -> syn::Result<()> {
     let name: Ident = input.parse().map_err(|e| {
         let message = "a start needs a name: `start released { x = 1.0 }`";
         syn::Error::new(e.span(), message)
     })?;
-    let mut options = Vec::new();
+    let mut start = Start {
+        docs,
+        name,
+        options: Vec::new(),
+        until: None,
+        guesses: Vec::new(),
+    };
+    let read = rest_of(&mut start, input, diag);
+    starts.push(start);
+    read
+}
+
+fn rest_of(start: &mut Start, input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<()> {
     if input.peek(syn::token::Paren) {
         let list;
         parenthesized!(list in input);
-        options = listed(&list, |list| start_option(list, diag))?;
+        start.options = listed(&list, |list| start_option(list, diag))?;
     }
-    let mut until = None;
     if input.peek(syn::Ident) {
         let word: Ident = input.parse()?;
         if word != "until" {
@@ -331,13 +343,12 @@ pub(super) fn start(
             return Err(syn::Error::new(word.span(), message));
         }
         // In front of a brace, as behind `if` and `for`.
-        until = Some(Expr::convert(
+        start.until = Some(Expr::convert(
             input.call(syn::Expr::parse_without_eager_brace)?,
             diag,
         ));
     }
-    let mut guesses = Vec::new();
-    blocks(input, &mut guesses, diag, guess)?;
+    blocks(input, &mut start.guesses, diag, guess)?;
     if input
         .fork()
         .parse::<Ident>()
@@ -345,18 +356,13 @@ pub(super) fn start(
     {
         let word: Ident = input.parse()?;
         let message = format!(
-            "`until` of a start stands before its braces: `start {name} until 2.0 {{ … }}`"
+            "`until` of a start stands before its braces: `start {} until 2.0 {{ … }}`",
+            start.name
         );
         diag.error(word.span(), message);
         input.call(syn::Expr::parse_without_eager_brace)?;
     }
-    Ok(Start {
-        docs,
-        name,
-        options,
-        until,
-        guesses,
-    })
+    Ok(())
 }
 
 /// All that is left of `input`; commas may be left out where the next entry starts with a name, as in sections.
@@ -374,7 +380,11 @@ fn listed<T>(
 
 fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
     let docs = docs(input, diag)?;
-    let name: Ident = input.parse()?;
+    let Key { name, indices, .. } = key(input, diag)?;
+    if !indices.is_empty() {
+        let message = format!("option `{name}` is one number; declare one for each");
+        return Err(syn::Error::new(name.span(), message));
+    }
     let _: Token![=] = needed(input, &name, || {
         format!("option `{name}` needs a default: `{name} = 1.0`")
     })?;

@@ -144,7 +144,7 @@ fn section(input: ParseStream<'_>, out: &mut Declaration, diag: &Diagnostics) ->
         .map_err(|e| syn::Error::new(e.span(), format!("expected a section: {}", sections())))?;
     let name = keyword.to_string();
     if name == "start" {
-        out.starts.push(start(input, docs, diag)?);
+        start(input, docs, &mut out.starts, diag)?;
         return Ok(());
     }
     let place = keyword.span();

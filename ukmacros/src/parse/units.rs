@@ -218,11 +218,6 @@ fn text(group: &Group, diag: &Diagnostics) -> TokenStream {
         token.map_or(group.span(), |token| token.span())
     };
     let unit = match Unit::parse(&text) {
-        Ok(unit) if unit.factors().any(|name| name == "Hz") => told(
-            group.span(),
-            "a hertz may be meant as a turn a second or as 1/s; write `rpm`, `rad/s` or `1/s`"
-                .to_owned(),
-        ),
         Ok(_) => text,
         Err(Refusal::Unknown(name)) => {
             let remedy = "a unit is a product of powers of kg, m, s, rad, deg, N, J and others, such as `[kg m^2]`";

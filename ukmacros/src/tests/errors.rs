@@ -23,7 +23,9 @@ fn errors(source: &str) -> Vec<Found> {
     assert_eq!(found.len(), collected.len(), "each error is emitted once");
     found.sort_by_key(|f| f.start);
     if source.starts_with("pub ") {
-        for part in ["struct", "Mechanism for"] {
+        let named = source.contains(" start a");
+        let start = named.then_some("pub fn start");
+        for part in ["struct", "Mechanism for"].into_iter().chain(start) {
             assert!(text.contains(part), "the fallback has its `{part}`");
         }
     }
@@ -285,6 +287,8 @@ cases! {
     start_declared_twice: "coords { x } mass { x: 1.0 } start a { x = 1.0 } start «a» { x = 2.0 }" => "start `a` is declared twice; names must be unique";
     option_behind_a_number: "coords { x } mass { x: 1.0 } start a(b = 1.0 «2.0») { x = b }" => "expected identifier";
     option_without_a_default: "coords { x } mass { x: 1.0 } start a(«b») { x = b }" => "option `b` needs a default: `b = 1.0`";
+    option_with_its_unit_behind_its_name: "coords { x [m] } mass { x: 1.0 } start a(b «[m]» = 1.0) { x = b }" => "a unit stands behind numbers, as in `l = 0.3 [m]`";
+    option_of_several_numbers: "coords { x } mass { x: 1.0 } start a(«b»[2] = 1.0) { x = b }" => "option `b` is one number; declare one for each";
     option_like_a_parameter: "params { m = 1.0 } coords { x } mass { x: m } start a(«m» = 1.0) { x = m }" => "`m` is declared twice; names must be unique";
     option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "the default of an option is a number, or made of constants; parameters stand in what the start says, beside the option";
     option_not_finite: "coords { x } mass { x: 1.0 } start a(b = «ln(0.0 - 1.0)») { x = b }" => "default of `b`";

@@ -12,7 +12,7 @@ pub use dimension::Dimension;
 
 use dimension::TWELFTHS;
 use std::fmt::{self, Write as _};
-use table::{Base, OTHERS, PREFIXES, Prefix, UNITS};
+use table::{Base, HERTZ, OTHERS, PREFIXES, Prefix, UNITS};
 
 /// A product of powers of known units, as it is written: `kg m^2`, `mm`, `rad/s`.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,8 @@ struct Factor {
 pub enum Refusal {
     /// There is no unit of this name.
     Unknown(String),
+    /// A hertz, by which some mean a turn a second and some 1/s.
+    Hertz,
     /// What stands behind `^` is no small number.
     Exponent,
     /// A product without a sign behind `/`, which some read as a part of the divisor: its last two factors.
@@ -47,6 +49,9 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refusal::Unknown(name) => write!(f, "unknown unit `{name}`"),
+            Refusal::Hertz => f.write_str(
+                "a hertz may be meant as a turn a second or as 1/s; write `rpm`, `rad/s` or `1/s`",
+            ),
             Refusal::Exponent => {
                 f.write_str("an exponent of a unit is a small number, such as `m^2`")
             }
@@ -65,9 +70,10 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// The names of all units, without prefixes.
+/// The names of all units that are taken, without prefixes.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    UNITS.iter().map(|unit| unit.name)
+    let names = UNITS.iter().map(|unit| unit.name);
+    names.filter(|name| *name != HERTZ)
 }
 
 /// A quantity that is 1 of a unit which is none here: of an inch, `in`, it is `25.4 [mm]`.
@@ -200,11 +206,6 @@ impl Unit {
         }
         product(&powers)
     }
-
-    /// The names of its factors, without their prefixes.
-    pub fn factors(&self) -> impl Iterator<Item = &'static str> {
-        self.factors.iter().map(|factor| factor.base.name)
-    }
 }
 
 /// Writes the unit as it is written, without regard to spaces and signs; nothing for a number.
@@ -268,6 +269,9 @@ fn factor(text: &str) -> Result<(Option<Factor>, &str), Refusal> {
     if end > 0 {
         let (name, rest) = text.split_at(end);
         let (prefix, base) = named(name).ok_or_else(|| Refusal::Unknown(name.to_owned()))?;
+        if base.name == HERTZ {
+            return Err(Refusal::Hertz);
+        }
         let (power, rest) = exponent(rest)?;
         let factor = Factor {
             prefix,

@@ -75,7 +75,9 @@ const SECOND: &[(&str, i32)] = &[("s", 1)];
 const RADIAN: &[(&str, i32)] = &[("rad", 1)];
 const FREQUENCY: &[(&str, i32)] = &[("rad", 1), ("s", -1)];
 
-/// A hertz is a turn a second, as frequencies of mechanics are angular ones.
+/// The unit that is known so as to be refused.
+pub(crate) const HERTZ: &str = "Hz";
+
 pub(crate) static UNITS: [Base; 16] = [
     unit("g", [1, 0, 0, 0], &[("kg", 1)]).decimals(-3),
     unit("m", [0, 1, 0, 0], &[("m", 1)]),
@@ -86,10 +88,7 @@ pub(crate) static UNITS: [Base; 16] = [
     unit("deg", [0, 0, 0, 1], RADIAN).of(PI, 180.0),
     unit("°", [0, 0, 0, 1], RADIAN).of(PI, 180.0),
     unit("turn", [0, 0, 0, 1], RADIAN).of(2.0 * PI, 1.0),
-    Base {
-        prefixed: true,
-        ..unit("Hz", [0, 0, -1, 1], FREQUENCY).of(2.0 * PI, 1.0)
-    },
+    unit(HERTZ, [0, 0, -1, 0], &[]),
     unit("rpm", [0, 0, -1, 1], FREQUENCY).of(PI, 30.0),
     unit("N", [1, 1, -2, 0], &[("N", 1)]),
     unit("Nm", [1, 2, -2, 0], &[("N", 1), ("m", 1)]),
