@@ -121,7 +121,7 @@ pub(super) fn choose(
             (system.graph, system.inner_hints) = base.clone();
         }
         let straight = match eliminate(&tasks[at], order, &mut system.graph) {
-            Ok(elimination) => Straight::new(elimination, held, regular, system),
+            Ok(elimination) => Straight::new(elimination, held, regular, tasks[at].turned, system),
             Err(text) => {
                 refusal.get_or_insert(text);
                 continue;

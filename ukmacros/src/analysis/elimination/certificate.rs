@@ -47,6 +47,7 @@
 use super::dropping::{least, squares};
 use super::{Elimination, Pair, Pivoting, Rotation};
 use crate::analysis::dynamics::Dynamics;
+use crate::analysis::frame::Turned;
 use crate::analysis::regular::Regular;
 use crate::expr::{Func, Graph, Id, Node, System, common_power};
 use std::collections::{BTreeSet, HashSet};
@@ -183,11 +184,12 @@ impl Straight {
     }
 
     /// Adds the certificate, and enters the names. Of the constraints of `d` those that `regular` has in doubt are checked after the
-    /// solution.
+    /// solution, but for those of frames: what is `turned` back from rates meets them whatever the rates are.
     pub(crate) fn new(
         mut elimination: Elimination,
         d: &Dynamics,
         regular: &Regular,
+        turned: &Turned,
         system: &mut System,
     ) -> Self {
         let g = &mut system.graph;
@@ -198,7 +200,9 @@ impl Straight {
             .iter()
             .map(|k| elimination.place[k.at]);
         let droppable: Vec<usize> = places.flatten().map(|at| at - n).collect();
-        let met = regular.met.iter().filter(|row| !droppable.contains(row));
+        let own = |row: &usize| turned.frames.iter().any(|frame| frame.row == *row);
+        let met = regular.met.iter();
+        let met = met.filter(|row| !droppable.contains(row) && !own(row));
         let met: Vec<usize> = met.copied().collect();
         let checked = elimination.met_by(&met, d, regular, certificate, g);
         let mut met_too = checked.last().copied().unwrap_or(certificate);
