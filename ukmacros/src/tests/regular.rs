@@ -47,6 +47,23 @@ fn quaternions() {
     assert!(solve.regular.is_empty() && solve.met.is_empty());
 }
 
+/// What is turned back from rates meets the constraints of quaternions whatever the rates are: nothing is checked of that.
+#[test]
+fn quaternions_of_trees() {
+    let body =
+        "{ mass: 1, inertia: [0.5, 0.6, 0.7, 0.02, -0.03, 0.04], centre: [0.1, -0.2, 0.05] }";
+    for joint in ["hinge", "ball"] {
+        let axis = if joint == "hinge" { ", [0, 0, 1]" } else { "" };
+        let source = format!(
+            "pub T {{ bodies {{ spatial a {body} spatial b {body} }} \
+             tree {{ j: {joint}(a.at([0.3, 0.1, -0.2]), b.at([-0.2, 0.3, 0.1]){axis}) }} }}"
+        );
+        let solve = known(&source).solve.expect("a straight line");
+        assert_eq!(solve.turned.len(), 1 + usize::from(joint == "ball"));
+        assert_eq!(solve.met, [0; 0], "{joint}");
+    }
+}
+
 #[test]
 fn inertia_of_a_sum() {
     let sum = "pub T { params { m = 2.0, k = 3.0 } coords { x, y, z } kinetic { 0.5 * m * sq(dot(x) + dot(y)), 0.5 * sq(dot(z)) } \
