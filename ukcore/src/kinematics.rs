@@ -65,7 +65,8 @@ pub struct Limit {
 /// - [`Error::UnknownName`] with the nearest name; [`Error::NonFinite`]; what [`assemble`](crate::assemble()) reports for `start`.
 /// - [`Error::InvalidSetting`] where drives and held coordinates are not as many as the degrees of freedom, where there are nonholonomic
 ///   constraints, since these leave the position to the way on which it is reached; where a drive is an output, or is held wherever the
-///   mechanism goes; and where the start is a dead centre or a singular position, or the begin of the sweep is not reached.
+///   mechanism goes; and where the start is a dead centre or a singular position, or several drives do not come from there to the begin of
+///   the sweep together. (One drive that does not come to it leaves no posture, and the limit at which it turns.)
 /// - [`Error::At`] with [`Error::InvalidSetting`] where positions do not go on smoothly; with [`Error::OffConstraint`] where constraints
 ///   that imply each other come to contradict each other.
 pub fn kinematics(

@@ -40,12 +40,6 @@ fn what_does_not_decide_a_motion_is_refused() {
         ask(&at(1.0), &[("ran.x", 0.3..0.4)], &[]),
         "did you mean `ram.x`",
     );
-    for range in [3.0..4.0, 4.0..3.0] {
-        refused(
-            ask(&at(1.0), &[("ram.x", range)], &[]),
-            "do not come from the start to the begin of the sweep: `ram.x` goes no further than",
-        );
-    }
     refused(ask(&at(1.0), &[], &[]), "`drives` are none");
     refused(
         ask(&at(1.0), &[("ram.x", 0.3..f64::NAN)], &[]),
@@ -76,15 +70,13 @@ fn what_does_not_decide_a_motion_is_refused() {
         kinematics(&arm, &start, &[("x", 0.0..4.0)], &[], 10),
         "leave 1 degree of freedom beside the sweep",
     );
-    for (drives, hold) in [
-        (&[("x", 4.0..5.0)][..], &["b"][..]),
-        (&[("x", 4.0..5.0), ("a", 0.0..1.0)], &[]),
-    ] {
-        refused(
-            kinematics(&arm, &start, drives, hold, 10),
-            "do not come from the start to the begin of the sweep: `x` goes no further than",
-        );
-    }
+    let led = kinematics(&arm, &start, &[("x", 4.0..5.0)], &["b"], 10).unwrap();
+    assert_eq!((led.postures.len(), led.limits.len()), (0, 1));
+    let far = kinematics(&arm, &start, &[("x", 4.0..5.0), ("a", 0.0..1.0)], &[], 10);
+    refused(
+        far,
+        "do not come from the start to the begin of the sweep: `x` goes no further than",
+    );
     ukcore::multibody! {
         /// A pin on a wheel.
         pub Wheel {

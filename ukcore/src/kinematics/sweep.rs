@@ -23,12 +23,6 @@ const LONG: f64 = 100.0;
 /// A share of a limit that is rounding.
 const SHARE: f64 = 1e-6;
 
-/// Where drives turn back before they are where the sweep begins.
-fn unreached(limit: &Limit) -> Error {
-    let reason = format!("do not come from the start to the begin of the sweep: {limit}");
-    Error::invalid("drives", reason)
-}
-
 /// There is no smooth way on at `state` of `curve`.
 pub(super) fn stuck(curve: &Curve<'_>, state: State) -> Error {
     let reason = format!(
@@ -197,12 +191,7 @@ impl<'a> Sweep<'a> {
                 End::Long => return Err(long(&curve, self.state(&curve, path.last()))),
             }
         }
-        match limits.first() {
-            Some(limit) if postures.is_empty() && !(0.0..=1.0).contains(&from) => {
-                Err(unreached(limit))
-            }
-            _ => Ok((postures, limits)),
-        }
+        Ok((postures, limits))
     }
 
     /// How much of the sweep is done in a second: that of time, if it moves; else the first drive has the speed 1.
@@ -244,7 +233,12 @@ impl<'a> Sweep<'a> {
         match path.end {
             End::Stuck => Err(stuck(&curve, self.state(&curve, path.last()))),
             End::Long => Err(long(&curve, self.state(&curve, path.last()))),
-            End::Turned => Err(unreached(&self.limit(&curve, path.last()))),
+            End::Turned => {
+                let limit = self.limit(&curve, path.last());
+                let reason =
+                    format!("do not come from the start to the begin of the sweep: {limit}");
+                Err(Error::invalid("drives", reason))
+            }
             End::Arrived => match curve.posture(&path, path.places.len() - 2, 1.0)? {
                 Some(posture) => Ok(posture.state),
                 None => Err(Error::invalid("drives", "begin at a dead centre")),
