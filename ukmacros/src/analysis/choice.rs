@@ -121,7 +121,7 @@ pub(super) fn choose(
             (system.graph, system.inner_hints) = base.clone();
         }
         let straight = match eliminate(&tasks[at], order, &mut system.graph) {
-            Ok(elimination) => Straight::new(elimination, held, regular, tasks[at].turned, system),
+            Ok(elimination) => Straight::new(elimination, held, regular, system),
             Err(text) => {
                 refusal.get_or_insert(text);
                 continue;
@@ -146,7 +146,6 @@ pub(super) fn choose(
         let mut chosen = emitted(system, best.straight, best.hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[best.at];
-            solve.turned = variant.turned.frames.iter().map(|f| f.row).collect();
             solve.solved = variant.turned.rows().copied().collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);

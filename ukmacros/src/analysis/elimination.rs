@@ -100,6 +100,8 @@ pub(crate) struct Elimination {
     solved: bool,
     /// Inertias that do not vary, where multipliers are solved for.
     inertias: Vec<Id>,
+    /// The constraints of frames: what is turned back from rates meets them, whatever the rates are.
+    turned: Vec<usize>,
     /// The place in the mechanism of each coordinate and constraint of the system; `None` for velocities and their definitions.
     place: Vec<Option<usize>>,
     /// Names of pivots, factors and multipliers.
@@ -368,6 +370,7 @@ pub(crate) fn eliminate(
             true => lasting_inertias(d, g),
             false => Vec::new(),
         },
+        turned: turned.frames.iter().map(|frame| frame.row).collect(),
         place: place(d, own),
         hints,
     })

@@ -92,7 +92,7 @@ fn multipliers(
         elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));
     }
     let elimination = elimination?;
-    let straight = Straight::new(elimination, &held, &regular, task.turned, system);
+    let straight = Straight::new(elimination, &held, &regular, system);
     let g = &mut system.graph;
     let unique = straight
         .elimination

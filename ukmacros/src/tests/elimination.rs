@@ -142,13 +142,7 @@ impl Tally {
                 self.rotated += usize::from(rotated);
                 let elimination = eliminate(&task, order, &mut system.graph);
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
-                lines.push(Straight::new(
-                    elimination,
-                    &dynamics,
-                    &plain,
-                    &Turned::default(),
-                    &mut system,
-                ));
+                lines.push(Straight::new(elimination, &dynamics, &plain, &mut system));
                 self.lifted += usize::from(of.force.len() > n);
                 self.turned += usize::from(!turned.is_empty());
                 self.joints += usize::from(turned.rows().next().is_some());
@@ -322,13 +316,7 @@ fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
     let plain = Regular::of(dynamics.clone());
     for order in orders {
         let elimination = eliminate(&task, order, &mut system.graph).expect("an elimination");
-        let straight = Straight::new(
-            elimination,
-            &dynamics,
-            &plain,
-            &Turned::default(),
-            &mut system,
-        );
+        let straight = Straight::new(elimination, &dynamics, &plain, &mut system);
         for (angle, safe) in [
             (0.0_f64, 1.0),
             (0.4, 1.0),

@@ -47,7 +47,6 @@
 use super::dropping::{least, squares};
 use super::{Elimination, Pair, Pivoting, Rotation};
 use crate::analysis::dynamics::Dynamics;
-use crate::analysis::frame::Turned;
 use crate::analysis::regular::Regular;
 use crate::expr::{Func, Graph, Id, Node, System, common_power};
 use std::collections::{BTreeSet, HashSet};
@@ -168,6 +167,7 @@ impl Straight {
             least_share: self.elimination.least_share(),
             met: self.met.clone(),
             droppable: self.droppable.clone(),
+            turned: self.elimination.turned.clone(),
             ..Solve::default()
         }
     }
@@ -184,12 +184,11 @@ impl Straight {
     }
 
     /// Adds the certificate, and enters the names. Of the constraints of `d` those that `regular` has in doubt are checked after the
-    /// solution, but for those of frames: what is `turned` back from rates meets them whatever the rates are.
+    /// solution, but for those of frames.
     pub(crate) fn new(
         mut elimination: Elimination,
         d: &Dynamics,
         regular: &Regular,
-        turned: &Turned,
         system: &mut System,
     ) -> Self {
         let g = &mut system.graph;
@@ -200,9 +199,8 @@ impl Straight {
             .iter()
             .map(|k| elimination.place[k.at]);
         let droppable: Vec<usize> = places.flatten().map(|at| at - n).collect();
-        let own = |row: &usize| turned.frames.iter().any(|frame| frame.row == *row);
-        let met = regular.met.iter();
-        let met = met.filter(|row| !droppable.contains(row) && !own(row));
+        let told = [&droppable[..], &elimination.turned].concat();
+        let met = regular.met.iter().filter(|row| !told.contains(row));
         let met: Vec<usize> = met.copied().collect();
         let checked = elimination.met_by(&met, d, regular, certificate, g);
         let mut met_too = checked.last().copied().unwrap_or(certificate);
