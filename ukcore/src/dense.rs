@@ -352,6 +352,18 @@ impl Dense {
         self.metric.divide(out);
     }
 
+    /// The share of a generalised force that the constraints do not take up, in the metric of the solve; NaN where there is no force.
+    /// `force` is overwritten.
+    pub(crate) fn left_of(&mut self, force: &mut [f64]) -> f64 {
+        let n = self.n;
+        let basis = &mut self.basis[..n * (n - self.cod.rank())];
+        self.metric.divide(force);
+        self.cod.null_space(basis);
+        let parts = basis.chunks_exact(n).map(|along| dot(along, force));
+        let left: f64 = parts.map(|part| part * part).sum();
+        (left / dot(force, force)).sqrt()
+    }
+
     /// What the solve may leave of `errors` of the right-hand sides: it meets rows that imply each other as well as it can together, so of
     /// errors that contradict each other it leaves to each row its share in the dependence, however small its own is.
     pub(crate) fn share(&mut self, errors: &mut [f64]) {

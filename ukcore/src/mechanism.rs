@@ -156,16 +156,31 @@ pub enum Branch {
     Negative,
     /// The branch of positive values of the switching function.
     Positive,
+    /// What is at the zero of the switching function, whatever its value is: sign is 0 there.
+    Zero,
 }
 
 impl Branch {
-    /// The sign of the branch: −1 or 1; 0 where none is held.
+    /// The sign of the switching function in the branch: −1 or 1; 0 at its zero, and where none is held.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
-            Branch::Followed => 0.0,
+            Branch::Followed | Branch::Zero => 0.0,
             Branch::Negative => -1.0,
             Branch::Positive => 1.0,
+        }
+    }
+
+    /// Whether it is on one side of the zero.
+    pub(crate) fn is_side(self) -> bool {
+        self.sign() != 0.0
+    }
+
+    /// What emitted functions take for it; see [`Scalar::branch`].
+    pub(crate) fn held(self) -> f64 {
+        match self {
+            Branch::Zero => 2.0,
+            other => other.sign(),
         }
     }
 }

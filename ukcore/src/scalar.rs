@@ -41,11 +41,12 @@ pub trait Scalar:
     fn from_f64(x: f64) -> Self;
     /// `then` where `a ≤ b`, else `otherwise` (also where a or b is NaN).
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self;
-    /// What decides a branch: `held`, unless it is 0; then `self`.
+    /// What decides a branch: `self` where `held` is 0, the sign of `held` where that is ±1, and 0 where it is 2.
     #[inline]
     fn branch(self, held: Self) -> Self {
-        let zero = Self::from_f64(0.0);
-        Self::select_le(held.abs(), zero, self, held)
+        let [zero, two] = [0.0, 2.0].map(Self::from_f64);
+        let size = held.abs();
+        Self::select_le(size, zero, self, held * (two - size))
     }
     /// self · b + c; rounded once where the target has an instruction for it, never by a library call.
     #[inline]

@@ -26,6 +26,7 @@ mod grid;
 mod independence;
 mod integrals;
 mod leaves;
+mod locked;
 mod obstacles;
 mod record;
 mod run;
@@ -333,6 +334,7 @@ impl Simulation {
             sloped: has_switches.then(|| self.mechanism.sloped()),
             along: has_switches.then(|| self.mechanism.along()),
             noise: None,
+            locked: None,
             columns: None,
             energy,
             recorder,

@@ -340,6 +340,12 @@ impl Solver {
         Ok(formula)
     }
 
+    /// The share of a generalised force at a state that the constraints do not take up, in the metric of the mass matrix; NaN of none.
+    pub(crate) fn left_of(&mut self, at: Given<'_>, force: &mut [f64]) -> Result<f64, Error> {
+        self.decide(at)?;
+        Ok(self.dense.left_of(force))
+    }
+
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].
     pub(crate) fn respond(
         &mut self,

@@ -54,6 +54,8 @@ pub(super) enum Leaving {
     Within(f64, Vec<usize>),
     /// The switches leave at the end of the step, as far as rounding can tell.
     AtEnd(Vec<usize>),
+    /// The constraints do not lock the switches any more.
+    Unlocked(Vec<usize>),
 }
 
 /// The branches of a run.
@@ -145,6 +147,14 @@ impl Switches {
             *own = own.and(Some(ROUNDINGS * self.values[k]));
             *own = own.filter(|own| size <= *own);
         }
+    }
+
+    /// The functions that are zero but for rounding at a state where they have been evaluated last.
+    fn near(&self, problem: &mut dyn Problem, at: Sample<'_>, floors: &[f64]) -> Vec<usize> {
+        let mut roundings = vec![0.0; self.values.len()];
+        problem.switching_rounding(at, floors, &mut roundings);
+        let near = |k: &usize| self.values[*k].abs() <= ROUNDINGS * roundings[*k];
+        (0..self.values.len()).filter(near).collect()
     }
 
     /// y' is to be evaluated at this state.

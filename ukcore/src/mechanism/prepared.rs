@@ -236,7 +236,7 @@ impl<S: Scalar, C: ?Sized + Code<S>> Prepared<S, C> {
     /// # Panics
     /// If there is no such switch.
     pub fn hold(&mut self, switch: usize, branch: Branch) {
-        self.values[self.spec.prepared.len()..][switch] = S::from_f64(branch.sign());
+        self.values[self.spec.prepared.len()..][switch] = S::from_f64(branch.held());
     }
 
     /// Holds all switches as `other` does.

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use super::crossing;
 use super::energy::EnergyWatch;
-use super::obstacles;
 use super::record::Recorder;
 use super::vanishing::RowWatch;
+use super::{locked, obstacles};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
@@ -33,6 +33,8 @@ pub(super) struct Run<'s> {
     pub(super) along: Option<Prepared<Along, dyn Switches<Along>>>,
     /// What rounding the equations carry, made where it is first asked for.
     pub(super) noise: Option<Noise>,
+    /// The solver that tells what constraints take up, made where it is first asked for.
+    pub(super) locked: Option<Solver>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
     /// Watches the energy where a method has a fixed step.
@@ -325,6 +327,12 @@ impl Problem for Run<'_> {
         if let Some(mechanism) = &mut self.along {
             mechanism.hold(k, branch);
         }
+    }
+
+    fn takes_up(&mut self, k: usize, at: Sample<'_>) -> bool {
+        let solver = self.locked.get_or_insert_with(|| self.solver.clone());
+        solver.mechanism_mut().hold_as(self.solver.mechanism());
+        locked::takes_up(solver, k, at)
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {

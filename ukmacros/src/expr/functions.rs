@@ -215,7 +215,7 @@ functions! {
         g.add(base, exponent)
     }, |u, w| Func::Exp.jet(Func::Ln.jet(u, None).times(w), None));
     /// The branch held (second argument), or the switching function (first) where none is. No function of the language.
-    Branch: two("branch", |u, w| if w == 0.0 { u } else { w }, |g, _, _, _| g.zero(), |u, w| if w.0 == 0.0 { u } else { w })
+    Branch: two("branch", |u, w| if w == 0.0 { u } else { w * (2.0 - w.abs()) }, |g, _, _, _| g.zero(), |u, w| if w.0 == 0.0 { u } else { Jet::constant(w.0 * (2.0 - w.0.abs())) })
         .counts(Selection);
 }
 

@@ -28,7 +28,8 @@ pub(super) struct Goal {
 impl Driver<'_> {
     /// Chooses branches at the start of the run, and evaluates f there.
     pub(super) fn choose(&mut self) -> Result<(), Error> {
-        let zeros = self.equations.choose(self.scheme.start());
+        let floors = &self.settings.tolerance.floors;
+        let zeros = self.equations.choose(self.scheme.start(), floors);
         let zeros = zeros.map_err(|stuck| self.stuck(&stuck))?;
         match self.begin_at(&zeros) {
             Err(error) => self.launch()?.then_some(()).ok_or(error),
@@ -51,6 +52,10 @@ impl Driver<'_> {
         let equations = &mut self.equations;
         if equations.switches.is_empty() {
             return Ok(false);
+        }
+        let unlocked = equations.unlocked(trial.end.s, self.scheme.end());
+        if !unlocked.is_empty() {
+            return Err(Refusal::Leaves(Leaving::Unlocked(unlocked), error));
         }
         let t0 = equations.course.t0;
         let time = |theta: f64| t0 + trial.start.s + theta * trial.h;
@@ -95,6 +100,10 @@ impl Driver<'_> {
         let switches = match leaving {
             Leaving::AtOnce(switches) if self.shown.is_some() => return self.relaunch(&switches),
             Leaving::AtOnce(switches) | Leaving::AtEnd(switches) => switches,
+            Leaving::Unlocked(switches) => {
+                self.equations.follow_for_a_while(&switches, whole.0);
+                return self.begin_at(&switches);
+            }
             Leaving::Within(theta, switches) if self.passage.passes_near(self.gap, theta) => {
                 self.equations.switches.targets = switches;
                 let trial = Trial {
@@ -121,14 +130,20 @@ impl Driver<'_> {
         {
             return self.begin_at(&switches);
         }
-        let turned = self.equations.turn(&switches, self.scheme.start());
-        let turned = turned.map_err(|stuck| {
-            self.equations.flip(&stuck.0, self.scheme.start());
-            self.rests(stuck)
-        });
-        if turned? {
-            self.turned.clone_from(&switches);
-            return self.begin_at(&switches);
+        match self.equations.turn(&switches, self.scheme.start()) {
+            Ok(true) => {
+                self.turned.clone_from(&switches);
+                return self.begin_at(&switches);
+            }
+            Ok(false) => {}
+            Err(Stuck(stuck)) => {
+                self.equations.flip(&stuck, self.scheme.start());
+                let loose = (self.equations).loosen(&stuck, whole.0, self.scheme.start());
+                return match loose {
+                    true => self.begin_at(&switches),
+                    false => Err(self.rests(Stuck(stuck))),
+                };
+            }
         }
         // The motion goes into its branch, and leaves it before the step's first part ends.
         self.equations.course.h = self.scheme.unfit(trial.h);

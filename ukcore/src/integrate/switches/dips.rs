@@ -206,7 +206,7 @@ impl Switches {
         for (size, value) in self.sizes.iter_mut().zip(&buffers.known) {
             *size = size.max(value.abs());
         }
-        let held = |k: &usize| self.branches[*k] != Branch::Followed && !self.targets.contains(k);
+        let held = |k: &usize| self.branches[*k].is_side() && !self.targets.contains(k);
         let mut open = std::mem::take(&mut buffers.open);
         open.extend((0..self.branches.len()).filter(held));
         let outside = |k: &usize| self.is_outside(*k, buffers.known[*k]);

@@ -78,6 +78,30 @@ impl Equations<'_> {
         !often.is_empty() && self.loosen(&often, h, y)
     }
 
+    /// Locks those of `switches` that constraints lock at their zeros, at this state; returns the others.
+    pub(super) fn lock(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
+        let now = self.course.now.s;
+        let (locked, others) = (switches.iter()).partition(|k| self.is_locked(**k, now, y));
+        let locked: Vec<usize> = locked;
+        locked.iter().for_each(|k| self.set(*k, Branch::Zero));
+        others
+    }
+
+    fn is_locked(&mut self, k: usize, s: f64, y: &[f64]) -> bool {
+        let at = self.at(s, y);
+        self.problem.takes_up(k, at)
+    }
+
+    /// The switches that are locked, but are not at the end of a step, which is at s.
+    pub(in crate::integrate) fn unlocked(&mut self, s: f64, y: &[f64]) -> Vec<usize> {
+        let all = 0..self.switches.branches.len();
+        let locked = |k: &usize| self.switches.branches[*k] == Branch::Zero;
+        let locked: Vec<usize> = all.filter(locked).collect();
+        (locked.into_iter())
+            .filter(|k| !self.is_locked(*k, s, y))
+            .collect()
+    }
+
     /// Whether accelerations were the same in both branches of switch k so long before this state.
     fn made_nothing(&mut self, k: usize, back: f64, y: &[f64]) -> bool {
         let mut acceleration = vec![0.0; y.len() / 2];
@@ -92,18 +116,24 @@ impl Equations<'_> {
         sides.is_some_and(|sides| jump(&sides) <= KINK * size(&sides))
     }
 
-    /// Follows `switches` for some steps of size `h`, if y' has a kink at most at their zeros, which are at this state. Returns whether it
-    /// does.
+    /// Locks `switches`, at whose zeros this state is, where constraints do, and follows the others for some steps of size `h`, if y' has a
+    /// kink at most there. Returns whether it does.
     pub(in crate::integrate) fn loosen(&mut self, switches: &[usize], h: f64, y: &[f64]) -> bool {
-        if !self.is_smooth(switches, y) {
-            return false;
+        let others = self.lock(switches, y);
+        let smooth = self.is_smooth(&others, y);
+        if smooth {
+            self.follow_for_a_while(&others, h);
         }
+        smooth
+    }
+
+    /// Follows `switches` for some steps of size `h`.
+    pub(in crate::integrate) fn follow_for_a_while(&mut self, switches: &[usize], h: f64) {
         let until = self.course.now.s + FOLLOWED * h;
         for k in switches {
             self.set(*k, Branch::Followed);
             self.switches.loose[*k] = until;
         }
-        true
     }
 
     /// Whether accelerations are the same on both sides of the zeros of `switches`, which are at this state but for an error of a step.

@@ -45,9 +45,9 @@ impl Equations<'_> {
     fn turn_over(&mut self, switches: &[usize]) {
         for k in switches {
             let other = match self.switches.branches[*k] {
-                Branch::Followed => Branch::Followed,
                 Branch::Negative => Branch::Positive,
                 Branch::Positive => Branch::Negative,
+                same => same,
             };
             self.set(*k, other);
             self.switches.levels[*k] = 0.0;
@@ -99,7 +99,7 @@ impl Equations<'_> {
             };
             let jumped: Vec<usize> = (0..after.len()).filter(jumped).collect();
             if jumped.is_empty() {
-                let held = |k: &usize| self.switches.branches[*k] != Branch::Followed;
+                let held = |k: &usize| self.switches.branches[*k].is_side();
                 // (At the start of a run they are asked about by themselves.)
                 let none = |k: &usize| self.course.steps > 0 && after[*k] == 0.0 && held(k);
                 let none: Vec<usize> = (0..after.len()).filter(none).collect();
@@ -155,9 +155,20 @@ impl Equations<'_> {
         doubt
     }
 
-    /// Chooses branches at the start of a run. A function that is zero there goes where it moves; returns these.
-    pub(in crate::integrate) fn choose(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
+    /// Chooses branches at the start of a run, where coordinates and velocities are known to the sizes `floors`. A function that is zero
+    /// there goes where it moves; returns these.
+    pub(in crate::integrate) fn choose(
+        &mut self,
+        y: &[f64],
+        floors: &[f64],
+    ) -> Result<Vec<usize>, Stuck> {
+        if self.switches.is_empty() {
+            return Ok(Vec::new());
+        }
         self.settle(y);
+        let at = self.at(self.course.now.s, y);
+        let near = self.switches.near(self.problem, at, floors);
+        self.lock(&near, y);
         let branches = self.switches.branches.iter().enumerate();
         let zeros = branches.filter(|(_, branch)| **branch == Branch::Followed);
         let zeros: Vec<usize> = zeros.map(|(k, _)| k).collect();
