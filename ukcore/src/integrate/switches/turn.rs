@@ -173,9 +173,14 @@ impl Equations<'_> {
         let zeros = branches.filter(|(_, branch)| **branch == Branch::Followed);
         let zeros: Vec<usize> = zeros.map(|(k, _)| k).collect();
         self.set_branch(&zeros, Branch::Positive, y);
-        let down = self.driven_out(&zeros, y);
+        let mut down = self.driven_out(&zeros, y);
         let rest = self.at_rest(&zeros, y);
         self.set_branch(&rest, Branch::Followed, y);
+        // What is at rest in its branch alone, as under a force of just the limit of friction, does not stay at its zero without it.
+        let along = self.course.along;
+        let up = self.moving(&rest, y, |_, _, rate| along * rate > 0.0);
+        down.extend(self.moving(&rest, y, |_, _, rate| along * rate < 0.0));
+        self.set_branch(&up, Branch::Positive, y);
         self.set_branch(&down, Branch::Negative, y);
         let back = self.driven_out(&down, y);
         // Driven back from both sides, it may stay between them: at rest under friction, without a force, or where a constraint leaves it
