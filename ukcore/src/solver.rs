@@ -54,6 +54,9 @@ pub const RANK_TOLERANCE: f64 = 2e-11;
 /// estimate.
 pub const RANK_CEILING: f64 = 1.0 / 32.0;
 
+/// Constraints take up a force of which they leave no more than so many times its rounding and that of A; a few times is usual.
+const TAKEN_UP: f64 = 64.0;
+
 /// Rows that keep this share of themselves are not implied by others at any place near by.
 pub(crate) const CLEAR: f64 = 4.0 * RANK_CEILING;
 
@@ -340,10 +343,15 @@ impl Solver {
         Ok(formula)
     }
 
-    /// The share of a generalised force at a state that the constraints do not take up, in the metric of the mass matrix; NaN of none.
-    pub(crate) fn left_of(&mut self, at: Given<'_>, force: &mut [f64]) -> Result<f64, Error> {
-        self.decide(at)?;
-        Ok(self.dense.left_of(force))
+    /// Whether the constraints take up a generalised force at a state: all of it but for rounding, of which it has the share `lost`.
+    pub(crate) fn takes_up(&mut self, at: Given<'_>, force: &mut [f64], lost: f64) -> bool {
+        if self.decide(at).is_err() {
+            return false;
+        }
+        // Where coordinates are far off, rows of A are what they are to as much less.
+        let pairs = at.1.iter().zip(&self.dense.measure.scale);
+        let far = pairs.fold(1.0, |far: f64, (q, scale)| far.max((q / scale).abs()));
+        self.dense.left_of(force) <= TAKEN_UP * (f64::EPSILON * far + lost)
     }
 
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].

@@ -4,11 +4,8 @@ use crate::integrate::sample::Sample;
 use crate::mechanism::{Branch, Evaluated};
 use crate::solver::Solver;
 
-/// Constraints leave this share of a force where rounding of coordinates makes their rows other than they are.
-const ROUNDED: f64 = 1e-8;
-
 /// Forces differ between branches where they do by more than this share of themselves: less is rounding of their terms.
-const DIFFERENT: f64 = 1e-9;
+const DIFFERENT: f64 = 1e-12;
 
 /// Whether constraints take up all that forces of the two branches of switch `k` differ by at a state on them. `solver` is one for the
 /// purpose, in the branches of the run.
@@ -36,6 +33,6 @@ pub(super) fn takes_up(solver: &mut Solver, k: usize, at: Sample<'_>) -> bool {
     let most = change.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     // In either of its branches.
     solver.mechanism_mut().hold(k, Branch::Positive);
-    most > DIFFERENT * size
-        && matches!(solver.left_of((at.t, at.q, at.v), &mut change), Ok(left) if left <= ROUNDED)
+    let lost = f64::EPSILON * size / most;
+    most > DIFFERENT * size && solver.takes_up((at.t, at.q, at.v), &mut change, lost)
 }
