@@ -18,6 +18,7 @@ mod integrals;
 mod kinks;
 mod launched;
 mod light;
+mod locked;
 mod massless;
 mod met;
 mod misses;

@@ -42,6 +42,9 @@ const ROUNDED: f64 = 1e-10;
 /// as a constraint does the velocity in a joint that is locked, leaves that.
 const ROUNDINGS: f64 = 16.0;
 
+/// A start may be known to so many times less than its rounding; constraints that lock a joint there do so at any rate of it.
+const GIVEN: f64 = 1e6;
+
 /// Zeros of several functions within this part of a step are one.
 const TOGETHER: f64 = 1e-10;
 
@@ -72,6 +75,8 @@ pub(super) struct Switches {
     sizes: Vec<f64>,
     /// Up to where on the way each switch is followed, whatever its value is: it hovers at its zero, where y' has a kink at most.
     loose: Vec<f64>,
+    /// Where constraints have locked each switch last, and did no longer a step later.
+    unlocked: Vec<f64>,
     /// When each switch was last turned.
     turned: Vec<hover::Turned>,
     /// Distances into the branches at the start of a part of a step.
@@ -96,6 +101,7 @@ impl Switches {
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
+            unlocked: vec![f64::NAN; count],
             turned: vec![hover::Turned::NEVER; count],
             before: vec![0.0; count],
             state: vec![0.0; n],
@@ -149,11 +155,11 @@ impl Switches {
         }
     }
 
-    /// The functions that are zero but for rounding at a state where they have been evaluated last.
+    /// The functions that may be zero at a start where they have been evaluated last, as far as that is known.
     fn near(&self, problem: &mut dyn Problem, at: Sample<'_>, floors: &[f64]) -> Vec<usize> {
         let mut roundings = vec![0.0; self.values.len()];
         problem.switching_rounding(at, floors, &mut roundings);
-        let near = |k: &usize| self.values[*k].abs() <= ROUNDINGS * roundings[*k];
+        let near = |k: &usize| self.values[*k].abs() <= GIVEN * roundings[*k];
         (0..self.values.len()).filter(near).collect()
     }
 

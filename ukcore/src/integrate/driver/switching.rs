@@ -101,7 +101,8 @@ impl Driver<'_> {
             Leaving::AtOnce(switches) if self.shown.is_some() => return self.relaunch(&switches),
             Leaving::AtOnce(switches) | Leaving::AtEnd(switches) => switches,
             Leaving::Unlocked(switches) => {
-                self.equations.follow_for_a_while(&switches, whole.0);
+                self.equations
+                    .unlock(&switches, whole.0, self.scheme.start());
                 return self.begin_at(&switches);
             }
             Leaving::Within(theta, switches) if self.passage.passes_near(self.gap, theta) => {

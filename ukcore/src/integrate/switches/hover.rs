@@ -81,8 +81,8 @@ impl Equations<'_> {
     /// Locks those of `switches` that constraints lock at their zeros, at this state; returns the others.
     pub(super) fn lock(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         let now = self.course.now.s;
-        let (locked, others) = (switches.iter()).partition(|k| self.is_locked(**k, now, y));
-        let locked: Vec<usize> = locked;
+        let locks = |k: &usize| self.switches.unlocked[*k] != now && self.is_locked(*k, now, y);
+        let (locked, others): (Vec<usize>, Vec<usize>) = switches.iter().copied().partition(locks);
         locked.iter().for_each(|k| self.set(*k, Branch::Zero));
         others
     }
@@ -128,7 +128,7 @@ impl Equations<'_> {
     }
 
     /// Follows `switches` for some steps of size `h`.
-    pub(in crate::integrate) fn follow_for_a_while(&mut self, switches: &[usize], h: f64) {
+    pub(super) fn follow_for_a_while(&mut self, switches: &[usize], h: f64) {
         let until = self.course.now.s + FOLLOWED * h;
         for k in switches {
             self.set(*k, Branch::Followed);

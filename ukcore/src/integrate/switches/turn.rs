@@ -172,9 +172,15 @@ impl Equations<'_> {
         let branches = self.switches.branches.iter().enumerate();
         let zeros = branches.filter(|(_, branch)| **branch == Branch::Followed);
         let zeros: Vec<usize> = zeros.map(|(k, _)| k).collect();
-        self.set_branch(&zeros, Branch::Positive, y);
-        let mut down = self.driven_out(&zeros, y);
-        let rest = self.at_rest(&zeros, y);
+        self.go_where_they_move(&zeros, y)?;
+        Ok(zeros)
+    }
+
+    /// Puts `switches`, which are at their zeros at this state, into the branches that they move to.
+    fn go_where_they_move(&mut self, switches: &[usize], y: &[f64]) -> Result<(), Stuck> {
+        self.set_branch(switches, Branch::Positive, y);
+        let mut down = self.driven_out(switches, y);
+        let rest = self.at_rest(switches, y);
         self.set_branch(&rest, Branch::Followed, y);
         // What is at rest in its branch alone, as under a force of just the limit of friction, does not stay at its zero without it.
         let along = self.course.along;
@@ -187,8 +193,19 @@ impl Equations<'_> {
         // no way, and friction makes nothing.
         self.set_branch(&back, Branch::Followed, y);
         match self.at_rest(&back, y).len() == back.len() || self.is_smooth(&back, y) {
-            true => Ok(zeros),
+            true => Ok(()),
             false => Err(Stuck(back)),
+        }
+    }
+
+    /// Puts `switches`, which constraints have locked up to this state but not to the end of a step of size `h` from it, into the branches
+    /// that they move to.
+    pub(in crate::integrate) fn unlock(&mut self, switches: &[usize], h: f64, y: &[f64]) {
+        for k in switches {
+            self.switches.unlocked[*k] = self.course.now.s;
+        }
+        if let Err(Stuck(stuck)) = self.go_where_they_move(switches, y) {
+            self.follow_for_a_while(&stuck, h);
         }
     }
 
