@@ -65,6 +65,8 @@ pub(super) enum Leaving {
 pub(super) struct Switches {
     /// None where no switch is to be located.
     branches: Vec<Branch>,
+    /// Their signs.
+    signs: Vec<f64>,
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
@@ -96,6 +98,7 @@ impl Switches {
     pub(super) fn new(count: usize, n: usize) -> Self {
         Switches {
             branches: vec![Branch::Followed; count],
+            signs: vec![0.0; count],
             levels: vec![0.0; count],
             roundings: vec![Some(0.0); count],
             values: vec![0.0; count],
@@ -121,14 +124,15 @@ impl Switches {
         (after - before).abs() > (JUMP * before.abs()).max(ROUNDED * self.sizes[k])
     }
 
-    /// Branches have changed, and with them what functions were where the run stands.
-    fn forget(&mut self) {
+    /// Switch k is in this branch, and functions need not be what they were where the run stands.
+    fn hold(&mut self, k: usize, branch: Branch) {
+        (self.branches[k], self.signs[k]) = (branch, branch.sign());
         self.buffers.forget();
     }
 
     /// How far switch k with the value `g` is within its branch; negative outside.
     fn inside(&self, k: usize, g: f64) -> f64 {
-        self.branches[k].sign() * (g - self.levels[k])
+        self.signs[k] * (g - self.levels[k])
     }
 
     /// How far switch k may be outside of its branch: by rounding where it has never been farther.
@@ -170,6 +174,11 @@ impl Switches {
             return;
         }
         problem.switching(at, &mut self.values);
+        // Levels are at zeros or beyond.
+        let mut held = self.values.iter().zip(&self.signs);
+        if held.all(|(g, sign)| sign * g >= 0.0) {
+            return;
+        }
         let outside = |k: usize| self.is_outside(k, self.values[k]);
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
@@ -194,7 +203,7 @@ impl Switches {
         evaluate(from, &mut values);
         for (k, g) in values.iter().enumerate() {
             if from > 0.0 {
-                let inside = g * self.branches[k].sign() > 0.0;
+                let inside = g * self.signs[k] > 0.0;
                 self.levels[k] = if inside { 0.0 } else { *g };
             }
             self.before[k] = self.inside(k, *g);

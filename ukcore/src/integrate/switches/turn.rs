@@ -12,8 +12,7 @@ pub(in crate::integrate) struct Stuck(pub(in crate::integrate) Vec<usize>);
 impl Equations<'_> {
     /// Makes y' that of `branch` of switch k from here on, whatever the sign of its function.
     pub(super) fn set(&mut self, k: usize, branch: Branch) {
-        self.switches.branches[k] = branch;
-        self.switches.forget();
+        self.switches.hold(k, branch);
         self.problem.set_branch(k, branch);
     }
 
@@ -92,7 +91,7 @@ impl Equations<'_> {
             let after = self.values(y);
             let all = &self.switches;
             let jumped = |k: &usize| {
-                let (from, to, sign) = (before[*k], after[*k], all.branches[*k].sign());
+                let (from, to, sign) = (before[*k], after[*k], all.signs[*k]);
                 to != from
                     && to * sign < 0.0
                     && (from * sign >= 0.0 || all.has_jumped(*k, from, to))
