@@ -127,10 +127,14 @@ fn prepared_text(id: Id, system: &System, printer: &Printer<'_>) -> String {
             "1; not a number where reactions are not unique".to_owned()
         }
         // The part of the certificate that parameters decide.
-        Node::Select(_) => format!(
-            "1 if the pivots that depend on {} alone are positive and finite, else 0",
-            parameters_of(id, system, printer.params)
-        ),
+        Node::Select(_) => {
+            let parameters = parameters_of(id, system, printer.params);
+            let of = match parameters.as_str() {
+                "" => "are numbers".to_owned(),
+                names => format!("depend on {names} alone"),
+            };
+            format!("1 if the pivots that {of} are positive and finite, else 0")
+        }
         _ => printer.text(id),
     }
 }
