@@ -352,16 +352,19 @@ impl Dense {
         self.metric.divide(out);
     }
 
-    /// The share of a generalised force that the constraints do not take up, in the metric of the solve; NaN where there is no force.
-    /// `force` is overwritten.
-    pub(crate) fn left_of(&mut self, force: &mut [f64]) -> f64 {
+    /// The share of each of these generalised forces that the constraints do not take up, in the metric of the solve; NaN where there is no
+    /// force. They are overwritten.
+    pub(crate) fn left_of<'f>(&mut self, forces: impl Iterator<Item = &'f mut [f64]>) -> Vec<f64> {
         let n = self.n;
         let basis = &mut self.basis[..n * (n - self.cod.rank())];
-        self.metric.divide(force);
         self.cod.null_space(basis);
-        let parts = basis.chunks_exact(n).map(|along| dot(along, force));
-        let left: f64 = parts.map(|part| part * part).sum();
-        (left / dot(force, force)).sqrt()
+        let left = forces.map(|force| {
+            self.metric.divide(force);
+            let parts = basis.chunks_exact(n).map(|along| dot(along, force));
+            let left: f64 = parts.map(|part| part * part).sum();
+            (left / dot(force, force)).sqrt()
+        });
+        left.collect()
     }
 
     /// What the solve may leave of `errors` of the right-hand sides: it meets rows that imply each other as well as it can together, so of

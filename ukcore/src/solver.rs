@@ -343,15 +343,30 @@ impl Solver {
         Ok(formula)
     }
 
-    /// Whether the constraints take up a generalised force at a state: all of it but for rounding, of which it has the share `lost`.
-    pub(crate) fn takes_up(&mut self, at: Given<'_>, force: &mut [f64], lost: f64) -> bool {
-        if self.decide(at).is_err() {
-            return false;
-        }
-        // Where coordinates are far off, rows of A are what they are to as much less.
-        let pairs = at.1.iter().zip(&self.dense.measure.scale);
-        let far = pairs.fold(1.0, |far: f64, (q, scale)| far.max((q / scale).abs()));
-        self.dense.left_of(force) <= TAKEN_UP * (f64::EPSILON * far + lost)
+    /// Which of these generalised forces, each with the share of it that is rounding, the constraints take up at a state, but for rounding
+    /// and drift; those that ask for velocities at rest do not count.
+    pub(crate) fn takes_up(
+        &mut self,
+        at: Given<'_>,
+        forces: &mut [(Vec<f64>, f64)],
+    ) -> Result<Vec<bool>, Error> {
+        self.evaluate(at)?;
+        let driven = self.mechanism.spec().structure.driven;
+        self.leave_rows(|row| driven.contains(&row));
+        self.factor()?;
+        let m = self.m;
+        let rows = || (0..m).filter(|row| !driven.contains(row));
+        let (rank, _) = self.significant(at, rows());
+        self.dense.cod.set_rank(rank);
+        self.measure_drift(at);
+        let allowed = f64::EPSILON + self.drifted(rows());
+        let left = self
+            .dense
+            .left_of(forces.iter_mut().map(|(force, _)| &mut force[..]));
+        let pairs = left.into_iter().zip(forces);
+        Ok(pairs
+            .map(|(left, (_, lost))| left <= TAKEN_UP * (allowed + *lost))
+            .collect())
     }
 
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].

@@ -200,6 +200,8 @@ pub struct SwitchSpec {
     pub terms: &'static [&'static str],
     /// Whether g is the length of a vector that the equations divide by: it reaches zero without changing its sign.
     pub length: bool,
+    /// Whether g is 0 wherever nothing moves, as a velocity is.
+    pub at_rest: bool,
 }
 
 impl SwitchSpec {

@@ -215,6 +215,7 @@ const _: () = {
                 mass_constant: true,
                 jacobian_constant: true,
                 jacobian_driven: false,
+                driven: &[],
                 jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[0],
                 angles: &[],

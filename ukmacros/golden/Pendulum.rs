@@ -214,6 +214,7 @@ const _: () = {
                 mass_constant: true,
                 jacobian_constant: false,
                 jacobian_driven: false,
+                driven: &[],
                 jacobian_fixed: &[],
                 massless: &[],
                 angles: &[],

@@ -226,6 +226,7 @@ const _: () = {
                     function: "speed_down",
                     terms: &["non-ideal force on `x`", "non-ideal force on `y`"],
                     length: false,
+                    at_rest: true,
                 },
             ],
             structure: ukcore::Structure {
@@ -254,6 +255,7 @@ const _: () = {
                 mass_constant: true,
                 jacobian_constant: true,
                 jacobian_driven: false,
+                driven: &[],
                 jacobian_fixed: &[(0, 0), (0, 1)],
                 massless: &[],
                 angles: &[],

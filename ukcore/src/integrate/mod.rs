@@ -229,9 +229,10 @@ pub(crate) trait Problem {
     fn switching_rate(&mut self, _at: Sample<'_>, _acceleration: &[f64], _values: &mut [f64]) {}
     /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.
     fn set_branch(&mut self, _k: usize, _branch: Branch) {}
-    /// Whether constraints take up all that forces of the two branches of switch `k` differ by at a state on them, so that q̈ is the same.
-    fn takes_up(&mut self, _k: usize, _at: Sample<'_>) -> bool {
-        false
+    /// Those of the switches `among` whose functions constraints keep at zero, and that have the same q̈ in both branches, since these take
+    /// up all that forces differ by.
+    fn locked(&mut self, _among: &[usize], _at: Sample<'_>) -> Vec<usize> {
+        Vec::new()
     }
     /// Called after each step that is good, with the error of what the problem makes of it, in terms of what is allowed. After an error, or
     /// one above 1, nothing of this call may be kept: the step is tried again, shorter.

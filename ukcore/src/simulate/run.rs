@@ -329,10 +329,13 @@ impl Problem for Run<'_> {
         }
     }
 
-    fn takes_up(&mut self, k: usize, at: Sample<'_>) -> bool {
+    fn locked(&mut self, among: &[usize], at: Sample<'_>) -> Vec<usize> {
+        let (Some(sloped), false) = (&self.sloped, among.is_empty()) else {
+            return Vec::new();
+        };
         let solver = self.locked.get_or_insert_with(|| self.solver.clone());
         solver.mechanism_mut().hold_as(self.solver.mechanism());
-        locked::takes_up(solver, k, at)
+        locked::locked(solver, sloped, among, at)
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<(Next, f64), Error> {

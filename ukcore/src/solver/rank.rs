@@ -24,10 +24,7 @@ impl Solver {
         among: &[usize],
     ) -> Result<Independent, Error> {
         self.evaluate(at)?;
-        for row in (0..self.m).filter(|row| !among.contains(row)) {
-            let entries = self.here.jacobian.iter_mut().skip(row).step_by(self.m);
-            entries.for_each(|a| *a = 0.0);
-        }
+        self.leave_rows(|row| !among.contains(&row));
         self.factor()?;
         let (rank, _) = self.significant(at, among.iter().copied());
         let cod = &self.dense.cod;
@@ -35,6 +32,14 @@ impl Solver {
             rows: cod.order()[..rank].to_vec(),
             clear: leading(cod.pivots(), DOUBTFUL).min(rank),
         })
+    }
+
+    /// Leaves out rows of A that have been evaluated.
+    pub(super) fn leave_rows(&mut self, left: impl Fn(usize) -> bool) {
+        for row in (0..self.m).filter(|row| left(*row)) {
+            let entries = self.here.jacobian.iter_mut().skip(row).step_by(self.m);
+            entries.for_each(|a| *a = 0.0);
+        }
     }
 
     /// Decides the rank (see the [module](super)) and returns the tolerance that did.
@@ -55,34 +60,42 @@ impl Solver {
     }
 
     /// How many rows count, of those `among` all to which A is [factored](Solver::factor), and the tolerance that decided.
-    fn significant(&mut self, at: Given<'_>, among: impl Iterator<Item = usize>) -> (usize, f64) {
+    pub(super) fn significant(
+        &mut self,
+        at: Given<'_>,
+        among: impl Iterator<Item = usize>,
+    ) -> (usize, f64) {
         let mut tolerance = self.options.rank_tolerance;
         let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
         let mut rank = self.dense.cod.pivots().len();
         if clear < rank {
             self.dense.cod.set_rank(clear);
             self.measure_drift(at);
-            let there = self.drift.there.rows();
-            let (here, measure) = (self.here.rows(), &self.dense.measure);
-            let scale = &measure.scale;
-            for c in among {
-                let change = here.row(c).zip(there.row(c)).zip(scale);
-                let change = change.map(|((a, b), s)| ((a - b) * s).abs());
-                // Not finite: no state worth the name is near.
-                let change = change.fold(0.0, |s: f64, x| match x.is_finite() {
-                    true => s.max(x),
-                    false => f64::INFINITY,
-                });
-                if change > 0.0 {
-                    let own = here.largest(c, scale);
-                    let size = measure.size_of_vanishing(c, own).unwrap_or(own);
-                    tolerance = tolerance.max(DRIFT_FACTOR * change / size);
-                }
-            }
+            tolerance = tolerance.max(DRIFT_FACTOR * self.drifted(among));
             tolerance = tolerance.min(RANK_CEILING);
             rank = leading(self.dense.cod.pivots(), tolerance);
         }
         (rank, tolerance)
+    }
+
+    /// By which share of itself one of these rows of A changes at most, one Newton step nearer to the manifold.
+    pub(super) fn drifted(&self, among: impl Iterator<Item = usize>) -> f64 {
+        let there = self.drift.there.rows();
+        let (here, measure) = (self.here.rows(), &self.dense.measure);
+        let scale = &measure.scale;
+        let shares = among.map(|c| {
+            let change = here.row(c).zip(there.row(c)).zip(scale);
+            let change = change.map(|((a, b), s)| ((a - b) * s).abs());
+            // Not finite: no state worth the name is near.
+            let change = change.fold(0.0, |s: f64, x| match x.is_finite() {
+                true => s.max(x),
+                false => f64::INFINITY,
+            });
+            let own = here.largest(c, scale);
+            let size = measure.size_of_vanishing(c, own).unwrap_or(own);
+            if change > 0.0 { change / size } else { 0.0 }
+        });
+        shares.fold(0.0, f64::max)
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.

@@ -19,6 +19,8 @@ pub struct Structure {
     pub jacobian_constant: bool,
     /// A depends on t.
     pub jacobian_driven: bool,
+    /// Constraints that ask for velocities even of a mechanism at rest: they contain the time, or a velocity that is given.
+    pub driven: &'static [usize],
     /// Entries (row, column) of A that depend on parameters alone: a row that has one which is not 0 does not vanish at any state.
     pub jacobian_fixed: &'static [(usize, usize)],
     /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
@@ -278,6 +280,7 @@ impl Structure {
         mass_constant: false,
         jacobian_constant: false,
         jacobian_driven: false,
+        driven: &[],
         jacobian_fixed: &[],
         massless: &[],
         angles: &[],

@@ -14,6 +14,8 @@ pub(crate) struct Structure {
     pub(crate) jacobian_constant: bool,
     /// A depends on t.
     pub(crate) jacobian_driven: bool,
+    /// Constraints that ask for velocities at rest.
+    pub(crate) driven: Vec<usize>,
     /// Entries of A that depend on parameters alone.
     pub(crate) jacobian_fixed: Vec<(usize, usize)>,
     pub(crate) massless: Vec<usize>,
@@ -43,6 +45,9 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         (_, Some(_)) | (None, _) => true,
         (Some((kinetic, _)), None) => quadratic(kinetic, &mut system.graph),
     };
+    let rates = dynamics.rate.iter().enumerate();
+    let driven = rates.filter(|(_, rate)| !vanishes_at_rest(**rate, &mut system.graph));
+    let driven: Vec<usize> = driven.map(|(row, _)| row).collect();
     let g = &system.graph;
     let massive: BTreeSet<usize> = dynamics.mass.keys().flat_map(|(r, c)| [*r, *c]).collect();
     let mass_diagonal = dynamics.mass.keys().all(|(r, c)| r == c);
@@ -69,6 +74,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics, model: &Model)
         mass_constant,
         jacobian_constant,
         jacobian_driven,
+        driven,
         jacobian_fixed,
         massless,
         angles: angles(&arguments, g, model),
@@ -278,7 +284,7 @@ fn smooth(id: Id, g: &Graph) -> bool {
 }
 
 /// Whether `id` is identically zero at q̇ = 0.
-fn vanishes_at_rest(id: Id, g: &mut Graph) -> bool {
+pub(super) fn vanishes_at_rest(id: Id, g: &mut Graph) -> bool {
     let rest = g.rewritten(&moving(id, g), |g, id, rest| match *g.node(id) {
         Node::Symbol(Symbol::Velocity(_)) => Some(g.zero()),
         Node::Held(inner) => Some(rest[&inner]),

@@ -8,6 +8,7 @@
 //! change its sign there, so no branch of it is held; a run that stays about its zero is told of it.
 
 use super::dynamics::Dynamics;
+use super::structure::vanishes_at_rest;
 use crate::expr::{Func, Graph, Id, Map, Node, Num, Symbol, System, is_power_of_two};
 use std::collections::HashSet;
 
@@ -23,6 +24,8 @@ pub(crate) struct Switch {
     pub(crate) terms: Vec<String>,
     /// Whether the function is a length, which reaches zero and does not change its sign.
     pub(crate) length: bool,
+    /// Whether the function is zero wherever nothing moves.
+    pub(crate) at_rest: bool,
 }
 
 /// What decides the branch of a node: the sign of `sign` · g.
@@ -60,7 +63,10 @@ pub(crate) fn hold(
             }
         }
     }
-    let Found { numbers, list } = switches;
+    let Found { numbers, mut list } = switches;
+    for switch in &mut list {
+        switch.at_rest = vanishes_at_rest(switch.function, g);
+    }
     if list.is_empty() {
         return (held, [lengths.list.clone(), lengths.list]);
     }
@@ -102,6 +108,7 @@ impl Found {
                 function,
                 terms,
                 length,
+                at_rest: false,
             });
         }
         let known = &mut self.list[k].terms;

@@ -56,8 +56,10 @@ pub(super) fn spec(
     let drawing = drawing(&system.drawing);
     let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
     let switches = listing.switches.iter().zip(&analysis.switches);
-    let switches = switches.map(|((function, terms), Switch { length, .. })| {
-        quote! { ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*], length: #length } }
+    let switches = switches.map(|((function, terms), Switch { length, at_rest, .. })| {
+        quote! {
+            ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*], length: #length, at_rest: #at_rest }
+        }
     });
     let structure = structure(model, analysis);
     let equations = equations(listing);
@@ -140,6 +142,7 @@ fn structure(model: &Model, analysis: &Analysis) -> TokenStream {
         mass_constant,
         jacobian_constant,
         jacobian_driven,
+        driven,
         jacobian_fixed,
         massless,
         angles,
@@ -167,6 +170,7 @@ fn structure(model: &Model, analysis: &Analysis) -> TokenStream {
         quote! { ukcore::Body { name: #name, joint: #joint, first: #first, lengths: #lengths, turns: #turns } }
     });
     let forced = forced.iter().map(|i| number(*i));
+    let driven = driven.iter().map(|row| number(*row));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
         Ok(solve) => self::solve(solve, analysis.dynamics.force.len()),
@@ -183,6 +187,7 @@ fn structure(model: &Model, analysis: &Analysis) -> TokenStream {
             mass_constant: #mass_constant,
             jacobian_constant: #jacobian_constant,
             jacobian_driven: #jacobian_driven,
+            driven: &[#(#driven),*],
             jacobian_fixed: &[#(#fixed),*],
             massless: &[#(#massless),*],
             angles: &[#(#angles),*],

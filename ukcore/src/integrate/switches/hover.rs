@@ -81,25 +81,23 @@ impl Equations<'_> {
     /// Locks those of `switches` that constraints lock at their zeros, at this state; returns the others.
     pub(super) fn lock(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
         let now = self.course.now.s;
-        let locks = |k: &usize| self.switches.unlocked[*k] != now && self.is_locked(*k, now, y);
-        let (locked, others): (Vec<usize>, Vec<usize>) = switches.iter().copied().partition(locks);
+        let asked = |k: &usize| self.switches.unlocked[*k] != now;
+        let asked: Vec<usize> = switches.iter().copied().filter(asked).collect();
+        let at = self.at(now, y);
+        let locked = self.problem.locked(&asked, at);
         locked.iter().for_each(|k| self.set(*k, Branch::Zero));
-        others
-    }
-
-    fn is_locked(&mut self, k: usize, s: f64, y: &[f64]) -> bool {
-        let at = self.at(s, y);
-        self.problem.takes_up(k, at)
+        let others = switches.iter().copied();
+        others.filter(|k| !locked.contains(k)).collect()
     }
 
     /// The switches that are locked, but are not at the end of a step, which is at s.
     pub(in crate::integrate) fn unlocked(&mut self, s: f64, y: &[f64]) -> Vec<usize> {
         let all = 0..self.switches.branches.len();
         let locked = |k: &usize| self.switches.branches[*k] == Branch::Zero;
-        let locked: Vec<usize> = all.filter(locked).collect();
-        (locked.into_iter())
-            .filter(|k| !self.is_locked(*k, s, y))
-            .collect()
+        let held: Vec<usize> = all.filter(locked).collect();
+        let at = self.at(s, y);
+        let locked = self.problem.locked(&held, at);
+        held.into_iter().filter(|k| !locked.contains(k)).collect()
     }
 
     /// Whether accelerations were the same in both branches of switch k so long before this state.
