@@ -2,6 +2,7 @@
 //! rounding that a locked joint turns by.
 
 use tests::{apart, at};
+use ukcore::manifold::Stabilisation;
 use ukcore::{Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
@@ -188,6 +189,101 @@ fn friction_where_two_joints_lock_a_third_does_nothing() {
                     assert_eq!(rubbed.work().switches, 0, "{of}");
                 }
             }
+        }
+    }
+}
+
+/// Off the constraints they lock, too.
+#[test]
+fn friction_does_nothing_in_locked_joints_that_drift() {
+    for (name, rubbed, free) in [
+        (
+            "pinned",
+            Pinned::default().prepared(),
+            Pinned {
+                mu: 0.0,
+                c: 0.0,
+                ..Pinned::default()
+            }
+            .prepared(),
+        ),
+        (
+            "door",
+            Door::default().prepared(),
+            Door {
+                mu: 0.0,
+                c: 0.0,
+                ..Door::default()
+            }
+            .prepared(),
+        ),
+    ] {
+        let start = rubbed.start("thrown", &[].into()).expect("they fit");
+        for until in [1.0, -1.0] {
+            let end = |mechanism: &Prepared, method, tolerance| {
+                let run = Simulation::new(mechanism).stabilise(Stabilisation::None);
+                let run = run.method(method).tolerance(tolerance).start(start.clone());
+                let run = run
+                    .until(until)
+                    .unwrap_or_else(|e| panic!("{name}, {method}, {tolerance:e}: {e}"));
+                (run.last().expect("an end").q.to_vec(), run.work().switches)
+            };
+            let (free, _) = end(&free, Method::Dop853, 1e-13);
+            for method in METHODS {
+                for tolerance in [1e-8, 1e-10, 1e-12] {
+                    let (found, switches) = end(&rubbed, method, tolerance);
+                    let off = apart(&found, &free);
+                    assert!(
+                        off < 30.0 * tolerance + 1e-11,
+                        "{name}, {method}, {tolerance:e}, {until}: {off:e}"
+                    );
+                    assert_eq!(switches, 0, "{name}, {method}, {tolerance:e}, {until}");
+                }
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A drive that begins at rest, with friction that it takes up; a body that an overload of the drive pushes, one that its direction
+    /// does, and one that this does for a moment. A light body that is held far off beside a heavy one that rubs on it.
+    Driven {
+        params { c = 0.7, far = 1e9 }
+        coords { x, pushed, led, pulsed, held, heavy }
+        mass { x: 1, pushed: 1, led: 1, pulsed: 1, held: 1e-6, heavy: 1e4 }
+        let way = sign(dot(x));
+        let rub = 1e4 * sign(dot(heavy) - dot(held));
+        force {
+            x: -c * way, led: max(way - 0.5, 0), pulsed: exp(-sq((t - 1) / 0.1)) * way,
+            held: rub, heavy: 2e4 - rub
+        }
+        nonideal { pushed: max(reaction(drive) - 2.2, 0) }
+        holonomic { drive: x = sq(t), hold: held = far }
+    }
+}
+
+/// Constraints that take up friction of what they drive, or of what moves beside them, lock nothing.
+#[test]
+fn friction_that_a_drive_takes_up_is_that_of_its_direction() {
+    let start = at(&[0.0, 0.0, 0.0, 0.0, 1e9, 0.0], &[0.0; 6]);
+    // ∫∫ of the pulse: (t − 1) e from 1 on, where e is its whole.
+    let pulse = 0.1 * std::f64::consts::PI.sqrt();
+    for method in METHODS {
+        for tolerance in TOLERANCES {
+            let run = Simulation::new(Driven::default())
+                .method(method)
+                .tolerance(tolerance);
+            // (A pulse is not looked for.)
+            let run = run.max_step(0.1).start(start.clone()).until(2.0);
+            let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
+            let off = apart(
+                run.last().expect("an end").q,
+                &[4.0, 1.0, 1.0, pulse, 1e9, 2.0],
+            );
+            assert!(
+                off < 30.0 * tolerance + 1e-9,
+                "{method}, {tolerance:e}: {off:e}"
+            );
         }
     }
 }

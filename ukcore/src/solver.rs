@@ -358,7 +358,7 @@ impl Solver {
         let rows = || (0..m).filter(|row| !driven.contains(row));
         let (rank, _) = self.significant(at, rows());
         self.dense.cod.set_rank(rank);
-        self.measure_drift(at);
+        self.bound_drift(at);
         let allowed = f64::EPSILON + self.drifted(rows());
         let left = self
             .dense

@@ -99,7 +99,26 @@ impl Solver {
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
-    pub(super) fn measure_drift(&mut self, (t, q, v): Given<'_>) {
+    pub(super) fn measure_drift(&mut self, at: Given<'_>) {
+        self.mechanism.residual(at.0, at.1, &mut self.position);
+        self.correct(at);
+    }
+
+    /// The same from a place that may be off the manifold by rounding, too, which need not show.
+    pub(super) fn bound_drift(&mut self, at: Given<'_>) {
+        let (t, q, v) = at;
+        let mut lost = vec![0.0; self.position.len()];
+        self.noise.go(&self.mechanism, t, [q, v], |_| [0.0; 2]);
+        self.noise.residual(&mut lost);
+        self.mechanism.residual(t, q, &mut self.position);
+        for (phi, lost) in self.position.iter_mut().zip(lost) {
+            *phi += (f64::EPSILON * lost).copysign(*phi);
+        }
+        self.correct(at);
+    }
+
+    /// The equations one Newton step nearer to the manifold by the residuals in hand.
+    fn correct(&mut self, (t, q, v): Given<'_>) {
         let Drift {
             known,
             there,
@@ -108,7 +127,6 @@ impl Solver {
             correction,
         } = &mut self.drift;
         *known = true;
-        self.mechanism.residual(t, q, &mut self.position);
         self.rate.fill(0.0);
         self.rate[..self.position.len()].copy_from_slice(&self.position);
         self.dense.least_norm(&self.rate, correction);
