@@ -82,8 +82,9 @@ fn slopes(
         let v: Vec<Sloped> = seeds.collect();
         sloped.switching(Sloped::from_f64(at.t), &q, &v, &mut values);
         for (slope, k) in slopes.iter_mut().zip(switches) {
-            for j in first..n.min(first + Slopes::COUNT) {
-                slope[j] = values[*k].eps.along(j - first);
+            let parts = slope[first..].iter_mut().take(Slopes::COUNT);
+            for (j, part) in parts.enumerate() {
+                *part = values[*k].eps.along(j);
             }
         }
     }
