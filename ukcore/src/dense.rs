@@ -352,17 +352,16 @@ impl Dense {
         self.metric.divide(out);
     }
 
-    /// The share of each of these generalised forces that the constraints do not take up, in the metric of the solve; NaN where there is no
-    /// force. They are overwritten.
-    pub(crate) fn left_of<'f>(&mut self, forces: impl Iterator<Item = &'f mut [f64]>) -> Vec<f64> {
+    /// The share of each of these rows that those of A do not combine to, in the metric of the solve; NaN of zeros. They are overwritten.
+    pub(crate) fn left_of(&mut self, rows: &mut [Vec<f64>]) -> Vec<f64> {
         let n = self.n;
         let basis = &mut self.basis[..n * (n - self.cod.rank())];
         self.cod.null_space(basis);
-        let left = forces.map(|force| {
-            self.metric.divide(force);
-            let parts = basis.chunks_exact(n).map(|along| dot(along, force));
+        let left = rows.iter_mut().map(|row| {
+            self.metric.divide(row);
+            let parts = basis.chunks_exact(n).map(|along| dot(along, row));
             let left: f64 = parts.map(|part| part * part).sum();
-            (left / dot(force, force)).sqrt()
+            (left / dot(row, row)).sqrt()
         });
         left.collect()
     }

@@ -54,8 +54,9 @@ pub const RANK_TOLERANCE: f64 = 2e-11;
 /// estimate.
 pub const RANK_CEILING: f64 = 1.0 / 32.0;
 
-/// Constraints take up a force of which they leave no more than so many times its rounding and that of A; a few times is usual.
-const TAKEN_UP: f64 = 64.0;
+/// A rate is locked if no more of it is left beside constraints than so many times the rounding and the drift of their rows; a few times
+/// is usual.
+const LOCKED: f64 = 64.0;
 
 /// Rows that keep this share of themselves are not implied by others at any place near by.
 pub(crate) const CLEAR: f64 = 4.0 * RANK_CEILING;
@@ -343,12 +344,12 @@ impl Solver {
         Ok(formula)
     }
 
-    /// Which of these generalised forces, each with the share of it that is rounding, the constraints take up at a state, but for rounding
-    /// and drift; those that ask for velocities at rest do not count.
-    pub(crate) fn takes_up(
+    /// Which rates, given by their derivatives by the velocities, constraints keep at zero at a state, but for rounding and drift; those that
+    /// ask for velocities at rest do not count. The derivatives are overwritten.
+    pub(crate) fn locks(
         &mut self,
         at: Given<'_>,
-        forces: &mut [(Vec<f64>, f64)],
+        rates: &mut [Vec<f64>],
     ) -> Result<Vec<bool>, Error> {
         self.evaluate(at)?;
         let driven = self.mechanism.spec().structure.driven;
@@ -359,14 +360,9 @@ impl Solver {
         let (rank, _) = self.significant(at, rows());
         self.dense.cod.set_rank(rank);
         self.bound_drift(at);
-        let allowed = f64::EPSILON + self.drifted(rows());
-        let left = self
-            .dense
-            .left_of(forces.iter_mut().map(|(force, _)| &mut force[..]));
-        let pairs = left.into_iter().zip(forces);
-        Ok(pairs
-            .map(|(left, (_, lost))| left <= TAKEN_UP * (allowed + *lost))
-            .collect())
+        let allowed = LOCKED * (f64::EPSILON + self.drifted(rows()));
+        let left = self.dense.left_of(rates);
+        Ok(left.into_iter().map(|left| left <= allowed).collect())
     }
 
     /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].

@@ -229,8 +229,7 @@ pub(crate) trait Problem {
     fn switching_rate(&mut self, _at: Sample<'_>, _acceleration: &[f64], _values: &mut [f64]) {}
     /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.
     fn set_branch(&mut self, _k: usize, _branch: Branch) {}
-    /// Those of the switches `among` whose functions constraints keep at zero, and that have the same q̈ in both branches, since these take
-    /// up all that forces differ by.
+    /// Those of the switches `among` whose functions constraints keep at zero at a state on them.
     fn locked(&mut self, _among: &[usize], _at: Sample<'_>) -> Vec<usize> {
         Vec::new()
     }

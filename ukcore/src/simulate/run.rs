@@ -33,7 +33,7 @@ pub(super) struct Run<'s> {
     pub(super) along: Option<Prepared<Along, dyn Switches<Along>>>,
     /// What rounding the equations carry, made where it is first asked for.
     pub(super) noise: Option<Noise>,
-    /// The solver that tells what constraints take up, made where it is first asked for.
+    /// The solver that tells what constraints lock, made where it is first asked for.
     pub(super) locked: Option<Solver>,
     /// Made when a method asks for the first Jacobian.
     pub(super) columns: Option<Columns>,
