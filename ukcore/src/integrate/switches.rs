@@ -38,10 +38,6 @@ const AT_END: f64 = 1e-13;
 const JUMP: f64 = 1e3;
 const ROUNDED: f64 = 1e-10;
 
-/// A function that has never been farther from its zero than so many times its rounding does not leave it by as much: what holds it there,
-/// as a constraint does the velocity in a joint that is locked, leaves that.
-const ROUNDINGS: f64 = 16.0;
-
 /// A start may be known to so many times less than its rounding; constraints that lock a joint there do so at any rate of it.
 const GIVEN: f64 = 1e6;
 
@@ -70,8 +66,6 @@ pub(super) struct Switches {
     /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to
     /// it.
     levels: Vec<f64>,
-    /// How far beyond its zero each function is by rounding, where one was last beyond; none of one that has been farther from it.
-    roundings: Vec<Option<f64>>,
     values: Vec<f64>,
     /// The largest value of each function at ends of steps.
     sizes: Vec<f64>,
@@ -100,7 +94,6 @@ impl Switches {
             branches: vec![Branch::Followed; count],
             signs: vec![0.0; count],
             levels: vec![0.0; count],
-            roundings: vec![Some(0.0); count],
             values: vec![0.0; count],
             sizes: vec![0.0; count],
             loose: vec![f64::NAN; count],
@@ -135,28 +128,9 @@ impl Switches {
         self.signs[k] * (g - self.levels[k])
     }
 
-    /// How far switch k may be outside of its branch: by rounding where it has never been farther.
-    fn band(&self, k: usize) -> f64 {
-        let rounding = self.roundings[k];
-        rounding.filter(|own| self.sizes[k] <= *own).unwrap_or(0.0)
-    }
-
     /// Whether switch k with the value `g` is outside of its branch.
     fn is_outside(&self, k: usize, g: f64) -> bool {
-        self.inside(k, g) < -self.band(k)
-    }
-
-    /// Takes the rounding of functions at a state, where coordinates and velocities are known to these sizes.
-    pub(super) fn round(&mut self, problem: &mut dyn Problem, at: Sample<'_>, floors: &[f64]) {
-        if self.roundings.iter().all(Option::is_none) {
-            return;
-        }
-        problem.switching_rounding(at, floors, &mut self.values);
-        for (k, own) in self.roundings.iter_mut().enumerate() {
-            let size = self.sizes[k];
-            *own = own.and(Some(ROUNDINGS * self.values[k]));
-            *own = own.filter(|own| size <= *own);
-        }
+        self.inside(k, g) < 0.0
     }
 
     /// The functions that may be zero at a start where they have been evaluated last, as far as that is known.

@@ -75,10 +75,8 @@ impl Driver<'_> {
         }
         let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;
-        let (coefficients, start) = (self.scheme.dense(), self.scheme.start());
+        let coefficients = self.scheme.dense();
         let (switches, problem) = (&mut equations.switches, &mut *equations.problem);
-        let floors = &self.settings.tolerance.floors;
-        switches.round(problem, Sample::of(time(0.0), start), floors);
         match switches.search(problem, time, coefficients, [from, to]) {
             None => {}
             Some(Leaving::AtEnd(targets)) => equations.switches.targets.extend(targets),

@@ -244,7 +244,7 @@ impl Switches {
 
     /// From where function k, which is within its branch by these at the ends of the step, counts as outside within it.
     fn beyond(&self, k: usize, ends: [f64; 2]) -> f64 {
-        let rounding = (f64::EPSILON * self.sizes[k]).max(self.band(k));
+        let rounding = f64::EPSILON * self.sizes[k];
         -(DEPTH * ends[0].abs().max(ends[1].abs())).max(rounding)
     }
 
