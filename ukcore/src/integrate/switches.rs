@@ -38,7 +38,7 @@ const AT_END: f64 = 1e-13;
 const JUMP: f64 = 1e3;
 const ROUNDED: f64 = 1e-10;
 
-/// A start may be known to so many times less than its rounding; constraints that lock a joint there do so at any rate of it.
+/// A function counts as zero at a start, which may be off by so many times its rounding, for constraints to lock it.
 const GIVEN: f64 = 1e6;
 
 /// Zeros of several functions within this part of a step are one.

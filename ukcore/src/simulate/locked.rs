@@ -6,8 +6,8 @@ use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::Solver;
 
-/// Those of the switches `among` whose functions constraints keep at zero at a state on them: what is 0 where nothing moves, and which no
-/// motion changes that they allow. `solver` is one for the purpose, in the branches of the run.
+/// Those of the switches `among` whose functions constraints keep at zero at a state: what is 0 where nothing moves, and which no velocity
+/// changes that they allow. `solver` is one for the purpose, in the branches of the run.
 pub(super) fn locked(
     solver: &mut Solver,
     sloped: &Prepared<Sloped, dyn Dynamics<Sloped>>,

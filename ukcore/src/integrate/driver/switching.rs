@@ -53,7 +53,7 @@ impl Driver<'_> {
         if equations.switches.is_empty() {
             return Ok(false);
         }
-        let unlocked = equations.unlocked(trial.end.s, self.scheme.end());
+        let unlocked = equations.unlocked(trial, self.scheme.states());
         if !unlocked.is_empty() {
             return Err(Refusal::Leaves(Leaving::Unlocked(unlocked), error));
         }

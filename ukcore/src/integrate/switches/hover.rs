@@ -1,7 +1,8 @@
 //! Switches that come back to their zeros again and again, though nothing turns there: contacts that touch, ropes that are neither taut nor
 //! slack. Where accelerations have a kink at most, the error of a step tells what becomes of it, and they are followed for a while.
 
-use crate::integrate::course::Place;
+use crate::integrate::course::{Place, Trial};
+use crate::integrate::dense::between;
 use crate::integrate::scheme::Equations;
 use crate::mechanism::Branch;
 use crate::scan::axpy;
@@ -16,6 +17,9 @@ const FOLLOWED: f64 = 10.0;
 /// differ by less of what they do little off it.
 const KINK: f64 = 1e-6;
 const LESS: f64 = 0.1;
+
+/// Parts of a step at which it is asked whether constraints lock what they did at its start.
+const ASKED: [f64; 4] = [1.0, 0.5, 0.3, 0.75];
 
 /// Where and in which step a switch was last turned, and how often it was before without getting away from its zero.
 #[derive(Debug, Clone, Copy)]
@@ -90,14 +94,27 @@ impl Equations<'_> {
         others.filter(|k| !locked.contains(k)).collect()
     }
 
-    /// The switches that are locked, but are not at the end of a step, which is at s.
-    pub(in crate::integrate) fn unlocked(&mut self, s: f64, y: &[f64]) -> Vec<usize> {
+    /// The switches that are locked, but are not on the way of a step between two states, or at its end.
+    pub(in crate::integrate) fn unlocked(&mut self, step: Trial, ends: [&[f64]; 2]) -> Vec<usize> {
         let all = 0..self.switches.branches.len();
         let locked = |k: &usize| self.switches.branches[*k] == Branch::Zero;
         let held: Vec<usize> = all.filter(locked).collect();
-        let at = self.at(s, y);
-        let locked = self.problem.locked(&held, at);
-        held.into_iter().filter(|k| !locked.contains(k)).collect()
+        if held.is_empty() {
+            return held;
+        }
+        let n = ends[0].len() / 2;
+        let ends = ends.map(|y| [&y[..n], &y[n..]]);
+        let mut state = vec![0.0; 2 * n];
+        for part in ASKED {
+            let (q, v) = state.split_at_mut(n);
+            between(part, step.h, ends, [q, v]);
+            let at = self.at(step.start.s + part * step.h, &state);
+            let locked = self.problem.locked(&held, at);
+            if locked.len() < held.len() {
+                return held.into_iter().filter(|k| !locked.contains(k)).collect();
+            }
+        }
+        Vec::new()
     }
 
     /// Whether accelerations were the same in both branches of switch k so long before this state.
