@@ -344,8 +344,8 @@ impl Solver {
         Ok(formula)
     }
 
-    /// Which rates, given by their derivatives by the velocities, constraints keep at zero at a state, but for rounding and drift; those that
-    /// ask for velocities at rest do not count. The derivatives are overwritten.
+    /// Which rates, given by their derivatives by the velocities, constraints keep at zero at a state, but for rounding and drift;
+    /// constraints that ask for velocities at rest do not count. The derivatives are overwritten.
     pub(crate) fn locks(
         &mut self,
         at: Given<'_>,
