@@ -5,6 +5,7 @@
 //! all are looked at, else those next to each set at one place. g counts as zero within the rounding of its computation.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,7 +13,7 @@ use crate::assemble::State;
 use crate::displacements::pivoted;
 use crate::error::Error;
 use crate::linearise::Linearisation;
-use crate::mechanism::{Branch, Prepared};
+use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::noise::Noise;
 use crate::scalar::{Scalar, Sloped, Slopes};
 
@@ -131,25 +132,27 @@ fn moved(state: &State, ways: &Ways<'_>, deviation: &DVector<f64>) -> State {
     state
 }
 
-/// The derivatives of all switching functions by coordinates and velocities, in units.
-fn slopes(mech: &Prepared, state: &State, ways: &Ways<'_>) -> DMatrix<f64> {
-    let (n, count) = (state.q.len(), mech.spec().switches.len());
-    let sloped = mech.sloped();
-    let mut out = DMatrix::zeros(count, 2 * n);
+/// The derivatives of all switching functions at a state by some of the coordinates and then velocities, in rows.
+pub(crate) fn slopes(
+    sloped: &Prepared<Sloped, dyn Dynamics<Sloped>>,
+    t: f64,
+    [q, v]: [&[f64]; 2],
+    by: Range<usize>,
+) -> DMatrix<f64> {
+    let count = sloped.spec().switches.len();
+    let mut out = DMatrix::zeros(count, by.len());
     let mut values = vec![Sloped::from_f64(0.0); count];
-    for first in (0..2 * n).step_by(Slopes::COUNT) {
+    for first in by.clone().step_by(Slopes::COUNT) {
         let seed = |x: &[f64], own: usize| -> Vec<Sloped> {
             let all = x.iter().enumerate();
             all.map(|(j, x)| Sloped::new(*x, Slopes::unit(own + j, first)))
                 .collect()
         };
-        let (q, v) = (seed(&state.q, 0), seed(&state.v, n));
-        sloped.switching(Sloped::from_f64(state.t), &q, &v, &mut values);
-        for k in 0..Slopes::COUNT.min(2 * n - first) {
-            let j = first + k;
-            let unit = ways.units[j % n] * if j < n { 1.0 } else { ways.pace };
+        let (q, v) = (seed(q, 0), seed(v, q.len()));
+        sloped.switching(Sloped::from_f64(t), &q, &v, &mut values);
+        for k in 0..Slopes::COUNT.min(by.end - first) {
             for (row, value) in values.iter().enumerate() {
-                out[(row, j)] = value.eps.along(k) * unit;
+                out[(row, first - by.start + k)] = value.eps.along(k);
             }
         }
     }
@@ -169,7 +172,10 @@ fn zero_sets(
     let mut noise = Noise::new(mech);
     noise.go(mech, *t, [q, v], |_| [0.0; 2]);
     noise.switching(&mut rounding);
-    let slopes = slopes(mech, state, ways);
+    let mut slopes = slopes(&mech.sloped(), *t, [q, v], 0..2 * n);
+    for (j, mut column) in slopes.column_iter_mut().enumerate() {
+        column *= ways.units[j % n] * if j < n { 1.0 } else { ways.pace };
+    }
     let mut sets: Vec<Set> = Vec::new();
     let mut off = Vec::new();
     for (k, switch) in mech.spec().switches.iter().enumerate() {
