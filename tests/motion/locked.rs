@@ -8,15 +8,10 @@ use ukcore::{Mechanism, Method, Prepared, Simulation, State, Trajectory};
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-10, 1e-12];
 
-fn run(
-    mechanism: impl Into<Prepared>,
-    start: &State,
-    method: Method,
-    tolerance: f64,
-) -> Trajectory {
-    let simulation = Simulation::new(mechanism).start(start.clone());
-    let run = simulation.method(method).tolerance(tolerance).until(1.0);
-    run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"))
+fn end(run: Simulation, start: &State, method: Method, tolerance: f64, until: f64) -> Trajectory {
+    let run = run.start(start.clone()).method(method).tolerance(tolerance);
+    run.until(until)
+        .unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"))
 }
 
 ukcore::multibody! {
@@ -58,20 +53,18 @@ fn friction_in_a_joint_that_is_locked_does_nothing() {
             .expect("it is put on its rail");
         for method in METHODS {
             for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
-                let end = |c: f64, d: f64| {
+                let found = |c: f64, d: f64| {
                     let locked = Locked {
                         c,
                         d,
                         ..own.clone()
                     };
-                    let run = Simulation::new(locked).start(start.clone());
-                    let run = run.method(method).tolerance(tolerance).until(3.0);
-                    let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
+                    let run = end(Simulation::new(locked), &start, method, tolerance, 3.0);
                     run.last().expect("an end").q.to_vec()
                 };
-                let free = end(0.0, 0.0);
+                let free = found(0.0, 0.0);
                 for (c, d) in [(0.2, 0.0), (0.0, 0.2), (0.2, 0.2)] {
-                    let off = apart(&end(c, d), &free);
+                    let off = apart(&found(c, d), &free);
                     let allowed = 100.0 * tolerance * far.max(1.0);
                     assert!(off < allowed, "{method}, {tolerance:e}, {far:e}: {off:e}");
                 }
@@ -142,51 +135,41 @@ ukcore::multibody! {
     }
 }
 
+type Made = fn(f64, f64, f64) -> Prepared;
+
+/// Each with this friction and drag, mass, and place.
+const LOCKED: [(&str, Made); 3] = [
+    ("pinned", |mu, m, far| {
+        Pinned { mu, c: mu, m, far }.prepared()
+    }),
+    ("propped", |mu, m, far| {
+        Propped { mu, c: mu, m, far }.prepared()
+    }),
+    ("door", |mu, m, far| Door { mu, c: mu, m, far }.prepared()),
+];
+
 /// What joints do that several joints lock together is what they do without friction, to the last step.
 #[test]
 fn friction_where_two_joints_lock_a_third_does_nothing() {
-    let far = [0.0, 1e4];
-    let pinned = |mu, m, far| {
-        Pinned {
-            mu,
-            m,
-            far,
-            ..Pinned::default()
-        }
-        .prepared()
-    };
-    let propped = |mu, m, far| {
-        Propped {
-            mu,
-            m,
-            far,
-            ..Propped::default()
-        }
-        .prepared()
-    };
-    let door = |mu, m, far| Door { mu, c: mu, m, far }.prepared();
-    type Made<'a> = &'a dyn Fn(f64, f64, f64) -> Prepared;
-    for (name, made) in [
-        ("pinned", &pinned as Made<'_>),
-        ("propped", &propped),
-        ("door", &door),
-    ] {
-        for (far, mass, mu) in far
-            .iter()
-            .flat_map(|far| [(*far, 1.0, 0.7), (*far, 1.0, 1e4), (*far, 1e3, 1e-3)])
-        {
-            let start = made(mu, mass, far)
-                .start("thrown", &[].into())
-                .expect("they fit");
-            let free = run(made(0.0, mass, far), &start, Method::Dop853, 1e-13);
-            for method in METHODS {
-                for tolerance in TOLERANCES {
-                    let of = format!("{name}, {method}, {tolerance:e}, {mu:e}, {far:e}");
-                    let rubbed = run(made(mu, mass, far), &start, method, tolerance);
-                    let [one, other] = [&rubbed, &free].map(|run| run.last().expect("an end"));
-                    let off = apart(one.q, other.q).max(apart(one.v, other.v));
-                    assert!(off < 30.0 * tolerance, "{of}: {off:e}");
-                    assert_eq!(rubbed.work().switches, 0, "{of}");
+    for (name, made) in LOCKED {
+        for far in [0.0, 1e4] {
+            for (mass, mu) in [(1.0, 0.7), (1.0, 1e4), (1e3, 1e-3)] {
+                let thrown = made(mu, mass, far).start("thrown", &[].into());
+                let start = thrown.expect("they fit");
+                let at = |mu, method, tolerance| {
+                    let run = Simulation::new(made(mu, mass, far));
+                    end(run, &start, method, tolerance, 1.0)
+                };
+                let free = at(0.0, Method::Dop853, 1e-13);
+                for method in METHODS {
+                    for tolerance in TOLERANCES {
+                        let of = format!("{name}, {method}, {tolerance:e}, {mu:e}, {far:e}");
+                        let rubbed = at(mu, method, tolerance);
+                        let [one, other] = [&rubbed, &free].map(|run| run.last().expect("an end"));
+                        let off = apart(one.q, other.q).max(apart(one.v, other.v));
+                        assert!(off < 30.0 * tolerance, "{of}: {off:e}");
+                        assert_eq!(rubbed.work().switches, 0, "{of}");
+                    }
                 }
             }
         }
@@ -196,48 +179,24 @@ fn friction_where_two_joints_lock_a_third_does_nothing() {
 /// Off the constraints they lock, too.
 #[test]
 fn friction_does_nothing_in_locked_joints_that_drift() {
-    for (name, rubbed, free) in [
-        (
-            "pinned",
-            Pinned::default().prepared(),
-            Pinned {
-                mu: 0.0,
-                c: 0.0,
-                ..Pinned::default()
-            }
-            .prepared(),
-        ),
-        (
-            "door",
-            Door::default().prepared(),
-            Door {
-                mu: 0.0,
-                c: 0.0,
-                ..Door::default()
-            }
-            .prepared(),
-        ),
-    ] {
-        let start = rubbed.start("thrown", &[].into()).expect("they fit");
+    for (name, made) in LOCKED {
+        let start = made(0.7, 1.0, 0.0)
+            .start("thrown", &[].into())
+            .expect("they fit");
         for until in [1.0, -1.0] {
-            let end = |mechanism: &Prepared, method, tolerance| {
-                let run = Simulation::new(mechanism).stabilise(Stabilisation::None);
-                let run = run.method(method).tolerance(tolerance).start(start.clone());
-                let run = run
-                    .until(until)
-                    .unwrap_or_else(|e| panic!("{name}, {method}, {tolerance:e}: {e}"));
-                (run.last().expect("an end").q.to_vec(), run.work().switches)
+            let at = |mu, method, tolerance| {
+                let run = Simulation::new(made(mu, 1.0, 0.0)).stabilise(Stabilisation::None);
+                end(run, &start, method, tolerance, until)
             };
-            let (free, _) = end(&free, Method::Dop853, 1e-13);
+            let free = at(0.0, Method::Dop853, 1e-13);
             for method in METHODS {
                 for tolerance in [1e-8, 1e-10, 1e-12] {
-                    let (found, switches) = end(&rubbed, method, tolerance);
-                    let off = apart(&found, &free);
-                    assert!(
-                        off < 30.0 * tolerance + 1e-11,
-                        "{name}, {method}, {tolerance:e}, {until}: {off:e}"
-                    );
-                    assert_eq!(switches, 0, "{name}, {method}, {tolerance:e}, {until}");
+                    let of = format!("{name}, {method}, {tolerance:e}, {until}");
+                    let rubbed = at(0.7, method, tolerance);
+                    let [one, other] = [&rubbed, &free].map(|run| run.last().expect("an end"));
+                    let off = apart(one.q, other.q);
+                    assert!(off < 30.0 * tolerance + 1e-11, "{of}: {off:e}");
+                    assert_eq!(rubbed.work().switches, 0, "{of}");
                 }
             }
         }
@@ -270,12 +229,9 @@ fn friction_that_a_drive_takes_up_is_that_of_its_direction() {
     let pulse = 0.1 * std::f64::consts::PI.sqrt();
     for method in METHODS {
         for tolerance in TOLERANCES {
-            let run = Simulation::new(Driven::default())
-                .method(method)
-                .tolerance(tolerance);
             // (A pulse is not looked for.)
-            let run = run.max_step(0.1).start(start.clone()).until(2.0);
-            let run = run.unwrap_or_else(|e| panic!("{method}, {tolerance:e}: {e}"));
+            let run = Simulation::new(Driven::default()).max_step(0.1);
+            let run = end(run, &start, method, tolerance, 2.0);
             let off = apart(
                 run.last().expect("an end").q,
                 &[4.0, 1.0, 1.0, pulse, 1e9, 2.0],
@@ -305,10 +261,11 @@ fn friction_that_is_locked_for_a_moment_rubs_behind_it() {
     let start = at(&[0.0; 2], &[0.0, 1.0]);
     for w in [1.0, 1e-3, 1e-6, 1e-9] {
         let known = Turning { w, known: 1.0 };
-        let known = run(known, &start, Method::Dop853, 1e-13);
+        let known = end(Simulation::new(known), &start, Method::Dop853, 1e-13, 1.0);
         for method in METHODS {
             for tolerance in TOLERANCES {
-                let found = run(Turning { w, known: 0.0 }, &start, method, tolerance);
+                let run = Simulation::new(Turning { w, known: 0.0 });
+                let found = end(run, &start, method, tolerance, 1.0);
                 let [one, other] = [&found, &known].map(|run| run.last().expect("an end"));
                 let off = apart(one.q, other.q);
                 assert!(
@@ -342,7 +299,13 @@ fn a_force_at_the_limit_of_friction_does_not_stop_a_run() {
                         c1: c1 * direction,
                         ..Limit::default()
                     };
-                    let run = run(block, &at(&[0.0], &[0.0]), method, tolerance);
+                    let run = end(
+                        Simulation::new(block),
+                        &at(&[0.0], &[0.0]),
+                        method,
+                        tolerance,
+                        1.0,
+                    );
                     let off = (run.last().expect("an end").q[0] - direction * c1 / 6.0).abs();
                     assert!(
                         off < 1e-13,
