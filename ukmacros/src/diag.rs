@@ -4,41 +4,17 @@ use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenS
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The source range of something: its first and its last token (stable Rust cannot join spans).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Loc {
-    pub(crate) start: Span,
-    pub(crate) end: Span,
-}
+pub(crate) use ukalgebra::Loc;
 
-impl From<Span> for Loc {
-    fn from(span: Span) -> Self {
-        Loc {
-            start: span,
-            end: span,
-        }
-    }
-}
-
-impl Loc {
-    /// The range from the start of this to the end of `end`.
-    pub(crate) fn to(self, end: Loc) -> Self {
-        Loc {
-            start: self.start,
-            end: end.end,
-        }
-    }
-
-    /// The range that `tokens` cover; the macro call itself if there are none.
-    pub(crate) fn of(tokens: &impl quote::ToTokens) -> Self {
-        let mut iter = tokens.to_token_stream().into_iter();
-        let Some(first) = iter.next() else {
-            return Span::call_site().into();
-        };
-        let start = first.span();
-        let end = iter.last().map_or(start, |t| t.span());
-        Loc { start, end }
-    }
+/// The range that `tokens` cover; the macro call itself if there are none.
+pub(crate) fn located(tokens: &impl quote::ToTokens) -> Loc {
+    let mut iter = tokens.to_token_stream().into_iter();
+    let Some(first) = iter.next() else {
+        return Span::call_site().into();
+    };
+    let start = first.span();
+    let end = iter.last().map_or(start, |t| t.span());
+    Loc { start, end }
 }
 
 /// Whether both stand at one place: spans cannot be compared, but they can be printed.

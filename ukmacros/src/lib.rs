@@ -1,12 +1,14 @@
 //! Compiler from declarations of constrained mechanical systems to the code of their dynamics. Used through `ukcore`.
 //!
 //! Layers, each using only those before it: `diag` (errors), `parse` (tokens to syntax tree), `model` (names, families, loops),
-//! `expr` (hash-consed graph, derivatives), `analysis` (M, Q, A, b; structure; checks; order of computation), `emit` (Rust).
+//! `lower` (to a graph, which `ukalgebra` differentiates and solves), `check` (what is wrong with the equations), `constants`, `emit`
+//! (Rust).
 
-mod analysis;
+mod check;
+mod constants;
 mod diag;
 mod emit;
-mod expr;
+mod lower;
 mod model;
 mod parse;
 
@@ -14,6 +16,7 @@ mod parse;
 mod tests;
 
 use proc_macro2::TokenStream;
+use ukalgebra::{analysis, expr};
 
 /// Declares a mechanism and emits its dynamics.
 ///
@@ -42,10 +45,10 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let faulty = decl.merged.faulty;
     let trusted = !faulty && !diag.damaged() && diag.len() == parsed;
     let heard = if trusted { &diag } else { &quiet };
-    let mut system = expr::lower(&decl, &model, heard);
-    let constants = analysis::constants(&model, &system, heard);
+    let mut system = lower::lower(&decl, &model, heard);
+    let constants = constants::constants(&model, &system, heard);
     if !faulty {
-        expr::units(&decl, &model, &mut system, &diag);
+        lower::units(&decl, &model, &mut system, &diag);
     }
     let handed = |faulty| emit::part(&decl, &source, &table, faulty);
     if !faulty && let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
@@ -72,16 +75,17 @@ fn analysed(
     }
     let n = model.coord_elements.len();
     let dynamics = analysis::derive(system, n);
-    analysis::check(system, &dynamics, model, diag);
+    check::check(system, &dynamics, model, diag);
     if !diag.is_empty() {
         return None;
     }
     let mut defects = Vec::new();
-    if cfg!(debug_assertions) {
+    let checked = cfg!(debug_assertions);
+    if checked {
         let wrong = analysis::verify(system, &dynamics, n).into_iter();
         defects.extend(wrong.map(|what| format!("wrong derivatives of {what}")));
     }
-    let analysis = analysis::analyse(system, model, dynamics);
+    let analysis = analysis::analyse(system, &model.coordinates(), dynamics, checked);
     if let (Some(reason), Some(place)) = (&analysis.unsolved, system.reaction) {
         let message = format!(
             "reactions cannot be used here, as they are not solved for on a straight line: {reason}; ask the solution of a run for its multipliers"

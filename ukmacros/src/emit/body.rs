@@ -2,12 +2,12 @@
 
 use super::names::{Namer, Slots, plain};
 use super::tokens;
-use crate::analysis::{Function, Place, Program, Role, Slice, Step};
-use crate::expr::{Graph, Id, Node, Symbol, System};
 use crate::model::Model;
 use proc_macro2::TokenStream;
 use std::borrow::Cow;
 use std::collections::HashSet;
+use ukalgebra::analysis::{Function, Place, Program, Role, Slice, Step};
+use ukalgebra::expr::{Graph, Id, Node, Symbol, System};
 
 /// A function to write.
 pub(super) struct Writing<'a> {

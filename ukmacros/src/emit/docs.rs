@@ -1,10 +1,10 @@
 //! The emitted type's documentation.
 
 use super::listing::Listing;
-use crate::analysis::{Analysis, Pivoting, Rotation};
-use crate::expr::System;
 use crate::model::Model;
 use std::fmt::Write as _;
+use ukalgebra::analysis::{Analysis, Pivoting, Rotation};
+use ukalgebra::expr::System;
 
 /// Blocks shown before the middle is left out, and characters of one that is typeset: `explain` shows what is longer.
 const BLOCKS: usize = 8;

@@ -4,12 +4,13 @@ use super::functions::signature;
 use super::implementation;
 use super::item::{associated, item, parameters};
 use super::tokens;
-use crate::analysis::{Constant, Role};
-use crate::expr::System;
+use crate::constants::Constant;
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::TokenStream;
 use quote::quote;
+use ukalgebra::analysis::Role;
+use ukalgebra::expr::System;
 
 /// The functions that every mechanism has; their results do not matter.
 const REQUIRED: [Role; 8] = [

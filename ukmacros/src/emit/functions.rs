@@ -5,11 +5,11 @@ use super::item::doc;
 use super::names::Slots;
 use super::tape::tape;
 use super::tokens;
-use crate::analysis::{Analysis, Function, Role, Slice, of_parameters};
-use crate::expr::{Id, System};
 use crate::model::Model;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use ukalgebra::analysis::{Analysis, Function, Role, of_parameters};
+use ukalgebra::expr::{Id, System};
 
 /// All functions, and `const CODE`, their text.
 pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> TokenStream {
@@ -178,24 +178,4 @@ fn statements(
         _ => "",
     };
     (slices.collect(), body + result)
-}
-
-impl Role {
-    /// The function's name: `mass_matrix` of `MassMatrix`.
-    fn name(self) -> String {
-        let mut name = String::new();
-        for c in format!("{self:?}").chars() {
-            if c.is_uppercase() && !name.is_empty() {
-                name.push('_');
-            }
-            name.extend(c.to_lowercase());
-        }
-        name
-    }
-}
-
-impl Slice {
-    pub(super) fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
-    }
 }

@@ -1,12 +1,12 @@
 //! The emitted type: a struct of its parameters, its constants, and access to parameters by position.
 
 use super::body::float;
-use crate::analysis::{Constant, ConstantValue, Positions};
-use crate::expr::{OptionValue, System};
+use crate::constants::{Constant, ConstantValue, Positions};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use ukalgebra::expr::{OptionValue, System};
 
 /// `"…"` for each line of a doc comment.
 pub(super) fn doc(text: &str) -> TokenStream {

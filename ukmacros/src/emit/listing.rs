@@ -1,12 +1,12 @@
 //! The derived equations as text, for rustdoc and `SPEC`.
 
 use super::names::{Namer, Slots};
-use crate::analysis::{Analysis, Dynamics};
-use crate::expr::{
-    Block, Formula, Id, Kind, Letters, Map, Name, Node, Printer, Symbol, System, families,
-};
 use crate::model::Model;
 use std::collections::HashSet;
+use ukalgebra::analysis::{Analysis, Dynamics};
+use ukalgebra::expr::{
+    Block, Formula, Id, Kind, Letters, Map, Name, Node, Printer, Symbol, System, families,
+};
 
 /// A shared subexpression of at least this many symbols gets a name of its own.
 const ABBREVIATE: usize = 12;

@@ -15,12 +15,13 @@ mod unused;
 pub(crate) use fallback::fallback;
 pub(crate) use part::{ask, part};
 
-use crate::analysis::{Analysis, Constant};
-use crate::expr::System;
+use crate::constants::Constant;
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::TokenStream;
 use quote::quote;
+use ukalgebra::analysis::Analysis;
+use ukalgebra::expr::System;
 
 /// Everything the declaration becomes.
 pub(crate) fn emit(

@@ -1,8 +1,8 @@
 //! Names of variables and constants, from those of the source.
 
-use crate::expr::{Graph, Id, Map, Node, Symbol};
 use crate::model::Model;
 use std::collections::{HashMap, HashSet};
+use ukalgebra::expr::{Graph, Id, Map, Node, Symbol};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
 const TAKEN: &str = "given residual t q v lit sum safe kinetic potential prepared mass force nonideal jacobian rhs phi rate outputs integrands drawing switching out as \

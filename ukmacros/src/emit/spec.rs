@@ -2,13 +2,15 @@
 
 use super::body::float;
 use super::listing::Listing;
-use crate::analysis::Switch;
-use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, Rotation, Solve, Structure};
-use crate::expr::{Block, Drawing, Kind, NamedUnit, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use ukalgebra::analysis::Switch;
+use ukalgebra::analysis::{
+    Analysis, Costs, Operations, Pair, Pivoting, Rotation, Solve, Structure,
+};
+use ukalgebra::expr::{Block, Drawing, Kind, NamedUnit, OutputValue, StartValue, System};
 use ukunits::Unit;
 
 /// `const SPEC`.

@@ -2,10 +2,10 @@
 
 use super::body::{ascending, float, known_first};
 use super::names::Slots;
-use crate::analysis::{Function, Place, Role, Step};
-use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use ukalgebra::analysis::{Function, Place, Role, Step};
+use ukalgebra::expr::{Func, Graph, Id, Map, Node, Symbol, System};
 
 /// The statement that reads `function` off a tape, in numbers that want it so. None where the runtime does not call it with such numbers,
 /// or where it takes more registers than a tape can name.

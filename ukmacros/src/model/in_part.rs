@@ -1,10 +1,11 @@
 //! Names in parts, as `leg[2].foot[0].x`, and what they are called in the whole.
 
 use super::scope::Scope;
-use super::types::{Name, indexed};
+use super::types::Name;
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::Expr;
 use proc_macro2::Ident;
+use ukalgebra::expr::indexed;
 
 /// What a name in a part is called in the whole.
 pub(crate) struct InPart {

@@ -20,7 +20,5 @@ pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
 pub(crate) use scope::{Scope, arguments, arity};
 pub(crate) use tree::{Joint, Step};
-pub(crate) use types::{
-    BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed,
-};
+pub(crate) use types::{BodyKind, Family, Field, Model, Name, Preset, Variable, block, every};
 pub(crate) use unused::{Unused, unused, uses};

@@ -2,7 +2,7 @@
 
 use super::renaming::{Renaming, bound, uses};
 use super::resolve::bare;
-use super::types::{Model, Variable, every, indexed};
+use super::types::{Model, Variable, every};
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::{
     Applied, Block, Declaration, Entry, Equation, Given, Key, Let, LetValue, PartUse, Table, parse,
@@ -10,6 +10,7 @@ use crate::parse::{
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
+use ukalgebra::expr::indexed;
 
 /// More members of parts would keep the compiler busy.
 const MOST: usize = 1_000;

@@ -4,13 +4,14 @@ use super::scope::{MAX_MEMBERS, Scope, index_functions};
 use super::sizes;
 use super::tree;
 use super::types::{
-    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed, unit_of,
+    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, unit_of,
 };
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key, Measure};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
+use ukalgebra::expr::indexed;
 use ukunits::Unit;
 
 /// Names with a fixed meaning, beside those of functions.

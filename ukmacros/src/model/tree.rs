@@ -3,11 +3,12 @@
 use super::elsewhere::elsewhere;
 use super::in_part::InPart;
 use super::scope::Scope;
-use super::types::{Model, Name, TreeJoint, Variable, block, indexed};
+use super::types::{Model, Name, TreeJoint, Variable, block};
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::{Declaration, Expr, ExprKind};
 use proc_macro2::Ident;
 use std::collections::{HashMap, HashSet};
+use ukalgebra::expr::indexed;
 
 /// A step from the axes at the point of the first body to those of the second. Texts are expressions of the joint's arguments.
 pub(crate) enum Step {

@@ -8,6 +8,7 @@ use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
+use ukalgebra::expr::Coordinates;
 use ukunits::Unit;
 
 /// Names of a declaration, resolved.
@@ -161,6 +162,17 @@ impl Body<'_> {
 }
 
 impl Model {
+    /// What the analysis asks about coordinates: an angle is one by its unit, if it has one.
+    pub(crate) fn coordinates(&self) -> Coordinates {
+        let elements = self.coord_elements.iter();
+        let turns = |unit: &Unit| matches!(unit.si().as_str(), "" | "rad");
+        let turning = elements.clone().map(|e| e.unit.as_ref().is_none_or(turns));
+        Coordinates {
+            turning: self.units.then(|| turning.collect()),
+            names: elements.map(|e| e.name.clone()).collect(),
+        }
+    }
+
     /// The body at this place of [`Model::body_elements`] and those that it hangs on, up to one that hangs on the ground or on nothing.
     pub(crate) fn carriers(&self, position: usize) -> impl Iterator<Item = usize> + use<'_> {
         let parent = |body: &usize| self.joints[self.hung[*body]?].parent;
@@ -238,12 +250,6 @@ pub(crate) fn every(shape: &[usize]) -> impl Iterator<Item = Vec<usize>> + use<>
         }
         indices
     })
-}
-
-/// `name[1][2]`.
-pub(crate) fn indexed<T: std::fmt::Display>(name: impl std::fmt::Display, indices: &[T]) -> String {
-    let indices = indices.iter().map(|i| format!("[{i}]"));
-    name.to_string() + &indices.collect::<String>()
 }
 
 /// A parameter or coordinate.

@@ -6,7 +6,7 @@ use super::item::{
     Applied, Body, Coord, Entry, Equation, Function, Guess, Key, Let, LetValue, MassEntry, PartUse,
     Shape, Start, StartOption,
 };
-use crate::diag::{Diagnostics, Loc, suggest};
+use crate::diag::{Diagnostics, located, suggest};
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens as _;
 use syn::parse::ParseStream;
@@ -173,7 +173,7 @@ pub(super) fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resu
                         args.push(p.ident.clone());
                     }
                     other => diag.damage(
-                        Loc::of(other),
+                        located(other),
                         "an argument is a plain name, such as `|v| …`",
                     ),
                 }

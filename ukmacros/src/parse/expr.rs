@@ -1,6 +1,6 @@
 //! Expressions: Rust's grammar, cut down to what can be differentiated.
 
-use crate::diag::{Diagnostics, Loc};
+use crate::diag::{Diagnostics, Loc, located};
 use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned as _;
 use ukunits::Unit;
@@ -186,8 +186,8 @@ pub(crate) fn own(text: &str) -> Expr {
 pub(super) fn location(e: &syn::Expr) -> Loc {
     let (start, end) = (leftmost(e), rightmost(e));
     Loc {
-        start: start.unwrap_or_else(|e| Loc::of(e).start),
-        end: end.unwrap_or_else(|e| Loc::of(e).end),
+        start: start.unwrap_or_else(|e| located(e).start),
+        end: end.unwrap_or_else(|e| located(e).end),
     }
 }
 
@@ -205,11 +205,11 @@ fn leftmost(mut e: &syn::Expr) -> Result<Span, &syn::Expr> {
             syn::Expr::Group(g) => &g.expr,
             syn::Expr::Range(r) => match &r.start {
                 Some(start) => start,
-                None => return Ok(Loc::of(&r.limits).start),
+                None => return Ok(located(&r.limits).start),
             },
             syn::Expr::Paren(p) => return Ok(p.paren_token.span.open()),
             syn::Expr::Array(a) => return Ok(a.bracket_token.span.open()),
-            syn::Expr::Unary(u) => return Ok(Loc::of(&u.op).start),
+            syn::Expr::Unary(u) => return Ok(located(&u.op).start),
             other => return Err(other),
         };
     }
@@ -226,10 +226,10 @@ fn rightmost(mut e: &syn::Expr) -> Result<Span, &syn::Expr> {
             syn::Expr::Group(g) => &g.expr,
             syn::Expr::Range(r) => match &r.end {
                 Some(end) => end,
-                None => return Ok(Loc::of(&r.limits).end),
+                None => return Ok(located(&r.limits).end),
             },
-            syn::Expr::Cast(c) => return Ok(Loc::of(&c.ty).end),
-            syn::Expr::Field(f) => return Ok(Loc::of(&f.member).end),
+            syn::Expr::Cast(c) => return Ok(located(&c.ty).end),
+            syn::Expr::Field(f) => return Ok(located(&f.member).end),
             syn::Expr::Paren(p) => return Ok(p.paren_token.span.close()),
             syn::Expr::Call(c) => return Ok(c.paren_token.span.close()),
             syn::Expr::MethodCall(m) => return Ok(m.paren_token.span.close()),
@@ -251,7 +251,7 @@ fn chain(mut e: syn::Expr, diag: &Diagnostics) -> ExprKind {
         match binary_op(&b.op) {
             Ok(op) => operations.push((op, *b.right)),
             Err(message) => {
-                diag.error(Loc::of(&b.op), message);
+                diag.error(located(&b.op), message);
                 return ExprKind::Error;
             }
         }
@@ -345,7 +345,7 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             syn::Expr::Path(p) => match name_of(p) {
                 Ok(name) if name == "sum" => sum(c, loc, diag),
                 Ok(name) => ExprKind::Call(name, all(c.args)),
-                Err(message) => refuse(Loc::of(p), &message),
+                Err(message) => refuse(located(p), &message),
             },
             other => refuse(
                 location(other),
@@ -355,7 +355,7 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
         syn::Expr::MethodCall(m) => {
             if let Some(turbofish) = &m.turbofish {
                 refuse(
-                    Loc::of(turbofish),
+                    located(turbofish),
                     "a function takes no type arguments here",
                 )
             } else if is_iteration(&m) {
@@ -368,7 +368,7 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
         }
         syn::Expr::Array(a) => ExprKind::Vector(all(a.elems)),
         syn::Expr::Cast(c) => refuse(
-            Loc::of(&c.ty),
+            located(&c.ty),
             "everything is an `f64` here; only `as f64` is allowed",
         ),
         syn::Expr::Assign(a) => refuse(

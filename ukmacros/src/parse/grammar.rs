@@ -10,7 +10,7 @@ use super::entries::{
 use super::expr::{Expr, Range};
 use super::item::{Block, Const, Declaration, Key, Measure, Merged};
 use super::{bars, nesting, units, words};
-use crate::diag::{Diagnostics, Loc, suggest};
+use crate::diag::{Diagnostics, Loc, located, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
 use std::collections::BTreeMap;
@@ -255,7 +255,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                 match list.parse_args_with(named) {
                     Ok(path) => found.runtime = Some(path.to_token_stream()),
                     Err(_) => diag.error(
-                        Loc::of(&attribute.meta),
+                        located(&attribute.meta),
                         "this attribute is written `#[ukcore(part)]` or `#[ukcore(crate = my::path::to::ukcore)]`",
                     ),
                 }
@@ -263,7 +263,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
             syn::Meta::List(list) if list.path.is_ident("allow") => {
                 attribute.to_tokens(&mut found.lints);
             }
-            other => diag.error(Loc::of(other), "only doc comments are allowed here"),
+            other => diag.error(located(other), "only doc comments are allowed here"),
         }
     }
     Ok(found)

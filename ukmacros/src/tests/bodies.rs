@@ -3,8 +3,8 @@
 use super::errors::check as check_errors;
 use super::vectors::check;
 use super::{analysis, coordinates, system};
-use crate::analysis::Operations;
-use crate::expr::{Id, Point, eval};
+use ukalgebra::analysis::Operations;
+use ukalgebra::expr::{Id, Point, eval};
 
 /// Planar bodies a and b, and parameters.
 const PLANE: &str = "params { r = 0.2, s = 0.1, l = 1.3 } bodies { planar a { mass: 1, inertia: 2, centre: [r, 0] } planar b { mass: 3, inertia: 4 } } \

@@ -1,7 +1,7 @@
 //! Associated constants: an index must mean what it says.
 
 use super::system;
-use crate::analysis::{ConstantValue, Positions, constants};
+use crate::constants::{ConstantValue, Positions, constants};
 use crate::diag::Diagnostics;
 
 /// The positions of the constant `name`, printed, if there is one.

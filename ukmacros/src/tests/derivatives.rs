@@ -1,7 +1,7 @@
 //! Derivatives against differences, simplification against evaluation.
 
-use crate::expr::Random;
-use crate::expr::{Derivative, Func, Graph, Id, Node, Point, Symbol, eval};
+use ukalgebra::expr::Random;
+use ukalgebra::expr::{Derivative, Func, Graph, Id, Node, Point, Symbol, eval};
 
 const X: Symbol = Symbol::Coord(0);
 const Y: Symbol = Symbol::Coord(1);

@@ -3,14 +3,14 @@
 mod mechanisms;
 
 use super::system;
-use crate::analysis::{
+use mechanisms::{bodies, declaration, linkage, spatial};
+use std::collections::{BTreeMap, BTreeSet};
+use ukalgebra::analysis::{
     Dynamics, Further, Pivoting, Regular, Straight, Task, Turned, derive, eliminate, opened,
     orders, turned,
 };
-use crate::expr::Random;
-use crate::expr::{Point, System, eval};
-use mechanisms::{bodies, declaration, linkage, spatial};
-use std::collections::{BTreeMap, BTreeSet};
+use ukalgebra::expr::Random;
+use ukalgebra::expr::{Point, System, eval};
 
 /// x of K x = r, or nothing where K is singular or nearly so.
 fn solve(mut k: Vec<Vec<f64>>, mut r: Vec<f64>) -> Option<Vec<f64>> {

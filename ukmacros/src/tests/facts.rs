@@ -236,7 +236,7 @@ fn constants_of_every_mechanism_are_reserved() {
         .lines()
         .filter_map(|line| line.trim().strip_prefix("const ")?.split(':').next())
         .collect();
-    assert_eq!(names, crate::analysis::ASSOCIATED);
+    assert_eq!(names, crate::constants::ASSOCIATED);
     for name in names {
         let name = name.to_lowercase();
         for sections in [

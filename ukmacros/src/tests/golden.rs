@@ -5,11 +5,11 @@
 //! code of every model to `target/expansions`, to be compared with that of another commit.
 
 use super::analysis;
-use crate::analysis::Costs;
 use expect_test::expect_file;
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use ukalgebra::analysis::Costs;
 
 /// A regular mechanism, a massless coordinate, a switch, a nonholonomic constraint.
 const WHOLE: [&str; 4] = ["Pendulum", "MasslessSpring", "RoughBlock", "KnifeEdge"];

@@ -27,12 +27,12 @@ mod vectors;
 mod verify;
 mod words;
 
-use crate::analysis::Analysis;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::expr::System;
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::TokenStream;
+use ukalgebra::analysis::Analysis;
+use ukalgebra::expr::System;
 
 /// Expands the text of a declaration; lexical errors are the caller's.
 fn expand(source: &str) -> (TokenStream, Vec<Diagnostic>) {
@@ -47,9 +47,9 @@ fn lowered(tokens: TokenStream) -> (Declaration, Model, System) {
     let (table, tokens) = crate::parse::split(tokens);
     let mut declaration = crate::parse::parse(tokens, &diag).expect("a declaration");
     crate::model::merge(&mut declaration, &table, &diag);
-    let functions = crate::expr::Func::all().map(|f| f.row().name);
+    let functions = ukalgebra::expr::Func::all().map(|f| f.row().name);
     let model = crate::model::resolve(&mut declaration, functions, &diag);
-    let system = crate::expr::lower(&declaration, &model, &diag);
+    let system = crate::lower::lower(&declaration, &model, &diag);
     assert!(diag.is_empty(), "{:?}", diag.take());
     (declaration, model, system)
 }

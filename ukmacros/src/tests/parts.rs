@@ -2,7 +2,7 @@
 
 use super::errors::check_after;
 use super::{coordinates, expand, system};
-use crate::expr::{Id, Point, eval};
+use ukalgebra::expr::{Id, Point, eval};
 
 const LEG: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l = 0.5, m[2] = [1.0, 2.0], k = 2 * l } \
     bodies { for i in 0..N { planar shin[i] { mass: m[i], inertia: 0.1, centre: [l / 2, 0] } } } gravity { [0, -1] } \
@@ -35,7 +35,7 @@ fn parts_are_what_stands_in_them() {
         .map(|i| 1.7 * i as f64)
         .map(|x| (x.sin(), x.cos()))
         .unzip();
-    let values = |system: &crate::expr::System| -> Vec<f64> {
+    let values = |system: &ukalgebra::expr::System| -> Vec<f64> {
         let mut ids: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
         ids.extend(system.potential);
         ids.extend(system.mass.values().map(|(m, _)| *m));

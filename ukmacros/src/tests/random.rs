@@ -1,19 +1,7 @@
 //! No input makes the macro panic.
 
 use super::expand;
-use crate::expr::Random;
-
-impl Random {
-    /// One of the numbers below `n`.
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        usize::try_from(self.bits() >> 33).expect("31 bits") % n
-    }
-
-    /// A number between two.
-    pub(crate) fn between(&mut self, least: f64, most: f64) -> f64 {
-        least + self.below(1_000_000) as f64 * 1e-6 * (most - least)
-    }
-}
+use ukalgebra::expr::Random;
 
 /// Pieces that declarations are made of, and some that they are not.
 const PIECES: [&str; 131] = [

@@ -1,7 +1,7 @@
 //! Blocks of M that constraints make regular, and what is checked at run time instead.
 
 use super::analysis;
-use crate::analysis::Analysis;
+use ukalgebra::analysis::Analysis;
 
 fn known(source: &str) -> Analysis {
     analysis(source.parse().expect("test sources are Rust tokens"))

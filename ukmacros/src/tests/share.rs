@@ -1,8 +1,8 @@
 //! What products have in common.
 
-use crate::analysis::{cost, shared};
-use crate::expr::Random;
-use crate::expr::{Func, Graph, Id, Point, Symbol, eval};
+use ukalgebra::analysis::{cost, shared};
+use ukalgebra::expr::Random;
+use ukalgebra::expr::{Func, Graph, Id, Point, Symbol, eval};
 
 /// Multiplications and divisions of `roots` as they are, and with what they share computed once.
 fn both(g: &mut Graph, roots: &[Id]) -> ([usize; 2], Vec<Id>) {

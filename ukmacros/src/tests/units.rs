@@ -2,7 +2,7 @@
 
 use super::errors::check;
 use super::expand;
-use crate::expr::Random;
+use ukalgebra::expr::Random;
 
 #[track_caller]
 fn accepted(body: &str) -> String {

@@ -35,7 +35,7 @@ fn the_documentation_lists_the_vocabulary() {
         .split_once("# Vectors and matrices")
         .expect("a section");
     let (section, _) = section.split_once("# Functions").expect("its end");
-    for operation in crate::expr::vocabulary() {
+    for operation in crate::lower::vocabulary() {
         let shown = section.contains(&format!("| `{operation}("))
             || section.contains(&format!(", `{operation}("));
         assert!(shown, "`{operation}`");

@@ -1,8 +1,8 @@
 //! The compiler's check of itself finds what is wrong.
 
 use super::system;
-use crate::analysis::{Dynamics, derive, verify};
-use crate::expr::Graph;
+use ukalgebra::analysis::{Dynamics, derive, verify};
+use ukalgebra::expr::Graph;
 
 const SOURCE: &str = "pub T { params { m = 1.3, l = 0.7 } coords { x, th } \
     kinetic { 0.5 * m * sq(dot(x + l * sin(th + t))) + 0.5 * sq(x * dot(th)) + t * dot(th) } \

@@ -1,7 +1,7 @@
 //! Declarations of random mechanisms.
 
-use crate::expr::Random;
 use std::fmt::Write as _;
+use ukalgebra::expr::Random;
 
 /// Particles in a plane with links in trees and loops; some with rods between them that share inertia, some driven, some followed by
 /// massless pointers.
