@@ -1,7 +1,6 @@
 //! Sizes: what is long is taken, what is deep is refused, and the graph grows no faster than the declaration.
 
 use super::{expand, system};
-use ukalgebra::expr::Graph;
 
 /// A declaration of one coordinate under the force `force`.
 fn forced(force: &str) -> String {
@@ -197,7 +196,7 @@ fn long_vectors_and_deep_matrices_are_taken() {
 fn nodes(source: &str) -> usize {
     let (mut system, model) = system(source);
     ukalgebra::analysis::derive(&mut system, model.coord_elements.len());
-    Graph::len(&system.graph)
+    system.graph.size()
 }
 
 #[test]

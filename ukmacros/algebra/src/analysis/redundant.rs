@@ -163,7 +163,7 @@ impl Level {
                 return Some(here);
             }
             let (step, work) = here.step(damping, x.len());
-            *left = left.checked_sub(work + self.sweep.len())?;
+            *left = left.checked_sub(work + self.sweep.size())?;
             let before = x.clone();
             x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
             let there = self.evaluate(probe, g);

@@ -62,7 +62,7 @@ impl Sweep {
     }
 
     /// Number of nodes.
-    pub fn len(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.order.len()
     }
 

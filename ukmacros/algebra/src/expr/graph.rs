@@ -162,7 +162,7 @@ pub struct Graph {
 
 impl Graph {
     /// Number of nodes.
-    pub fn len(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.nodes.len()
     }
 
