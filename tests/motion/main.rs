@@ -11,6 +11,7 @@ mod dips;
 mod failures;
 mod fallback;
 mod far;
+mod freedoms;
 mod friction;
 mod hovering;
 mod impacts;

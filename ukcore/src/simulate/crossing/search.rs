@@ -378,6 +378,17 @@ impl<'a> Search<'a> {
         if n - rank <= k {
             return false;
         }
+        // They are those of where the search began, and what they have of others than the constraints allow here would count as bent.
+        let moving = self.directions.clone();
+        let u = self.allowed(&moving[0]);
+        let mut directions = vec![u.clone()];
+        for other in &moving[1..] {
+            let mut both = moving[0].clone();
+            axpy(1.0, other, &mut both);
+            let mut other = self.allowed(&both);
+            axpy(-1.0, &u, &mut other);
+            directions.push(other);
+        }
         let mut basis = vec![0.0; n * (n - rank)];
         self.dense.cod.null_space(&mut basis);
         // A direction like no other, as fast as the motion.
@@ -395,9 +406,8 @@ impl<'a> Search<'a> {
         shares.iter().any(|shares| {
             let mut known: Vec<Vec<f64>> = Vec::new();
             let mut size = 0.0_f64;
-            for i in 0..k {
-                let direction = self.directions[i].clone();
-                let mut bend = self.bend(shares, &direction, &basis);
+            for direction in &directions {
+                let mut bend = self.bend(shares, direction, &basis);
                 size = size.max(dot(&bend, &bend).sqrt());
                 reject(&mut bend, &known);
                 let length = dot(&bend, &bend).sqrt();
