@@ -402,34 +402,55 @@ impl<'a> Search<'a> {
         let measure = &self.dense.measure;
         let speed = measure.size(&self.directions[0]) / measure.size(&other);
         other.iter_mut().for_each(|x| *x *= speed);
+        directions.push(other);
         let shares = self.shares.clone();
         shares.iter().any(|shares| {
-            let mut known: Vec<Vec<f64>> = Vec::new();
-            let mut size = 0.0_f64;
-            for direction in &directions {
-                let mut bend = self.bend(shares, direction, &basis);
-                size = size.max(dot(&bend, &bend).sqrt());
-                reject(&mut bend, &known);
-                let length = dot(&bend, &bend).sqrt();
-                if length > BENT * size {
-                    bend.iter_mut().for_each(|x| *x /= length);
-                    known.push(bend);
-                }
-            }
-            let mut bend = self.bend(shares, &other, &basis);
-            size = size.max(dot(&bend, &bend).sqrt());
-            reject(&mut bend, &known);
-            dot(&bend, &bend).sqrt() > BENT * size
+            // Second derivatives show in differences in proportion, rounding and what is left of higher ones do not.
+            let [near, far] = [DIFFERENCE, 4.0 * DIFFERENCE]
+                .map(|difference| self.bent(shares, &directions, &basis, difference));
+            near.zip(far)
+                .is_some_and(|(near, far)| (2.0 * near..8.0 * near).contains(&far))
         })
     }
 
-    /// The second derivatives of the f that `shares` make up, by `direction` and each vector of `basis`, by differences of A.
-    fn bend(&mut self, shares: &[f64], direction: &[f64], basis: &[f64]) -> Vec<f64> {
+    /// How much the f that `shares` make up bends in the last of `directions` otherwise than in all others, by this `difference`, if it
+    /// does.
+    fn bent(
+        &mut self,
+        shares: &[f64],
+        directions: &[Vec<f64>],
+        basis: &[f64],
+        difference: f64,
+    ) -> Option<f64> {
+        let mut known: Vec<Vec<f64>> = Vec::new();
+        let (mut size, mut left) = (0.0_f64, 0.0);
+        for direction in directions {
+            let mut bend = self.bend(shares, direction, basis, difference);
+            size = size.max(dot(&bend, &bend).sqrt());
+            reject(&mut bend, &known);
+            left = dot(&bend, &bend).sqrt();
+            if left > BENT * size {
+                bend.iter_mut().for_each(|x| *x /= left);
+                known.push(bend);
+            }
+        }
+        (left > BENT * size).then_some(left)
+    }
+
+    /// The second derivatives of the f that `shares` make up, by `direction` and each vector of `basis`, times twice this `difference` of
+    /// the coordinates that A is taken at.
+    fn bend(
+        &mut self,
+        shares: &[f64],
+        direction: &[f64],
+        basis: &[f64],
+        difference: f64,
+    ) -> Vec<f64> {
         let n = direction.len();
         let mut bend = vec![0.0; n];
         for sign in [1.0, -1.0] {
             let mut q = self.q.clone();
-            axpy(sign * DIFFERENCE * self.scale, direction, &mut q);
+            axpy(sign * difference * self.scale, direction, &mut q);
             let jacobian = &mut self.terms.jacobian;
             (self.mech).jacobian(self.t, &q, &self.directions[0], jacobian);
             let columns = jacobian.chunks_exact(shares.len());
