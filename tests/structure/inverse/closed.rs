@@ -158,7 +158,9 @@ fn power_is_balanced_where_rows_vanish() {
 #[test]
 fn a_flat_linkage_of_bennett_is_as_beside_it() {
     let (free, driven) = (Bennett::default(), DrivenBennett::default());
-    for aside in [1e-3, 1e-4, 3e-5, 1e-6, 1e-8, 1e-9, 0.0, -1e-8, -7e-6] {
+    for aside in [
+        1e-3, 1e-4, 3e-5, 1e-6, 1e-8, 1e-9, 1e-11, 1e-14, 2e-15, 0.0, -5e-15, -1e-12, -1e-8, -7e-6,
+    ] {
         let angle = PI - aside;
         let guess = State {
             t: angle / 3.0,

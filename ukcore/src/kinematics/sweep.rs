@@ -8,11 +8,12 @@ use super::Limit;
 use super::curve::{AT, Curve, End, Place, Rows};
 use crate::assemble::State;
 use crate::diagnosis::{leader, quoted};
-use crate::displacements::units;
+use crate::displacements::{INDEPENDENT, units};
 use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
 use crate::nearby::neighbours;
+use crate::noise::Noise;
 use crate::numbers::significant;
 use crate::scan::or_one;
 
@@ -267,9 +268,24 @@ impl<'a> Sweep<'a> {
             time,
             speed: 1.0,
             extent: 0.0,
-            lengths: Vec::new(),
+            lengths: self.lengths(),
             margin: 1.0,
         }
+    }
+
+    /// How long rows of the holonomic constraints have to be to count whole: what rounding may make of one that vanishes, beside what
+    /// counts as independent.
+    fn lengths(&self) -> Vec<f64> {
+        let (spec, State { t, q, .. }) = (self.mech.spec(), self.start);
+        let units = units(self.mech, self.start);
+        let mut noise = Noise::new(self.mech);
+        let rest = vec![0.0; q.len()];
+        noise.go(self.mech, *t, [q, &rest], |_| [0.0; 2]);
+        let mut lengths = vec![0.0; spec.m()];
+        noise.jacobian(|c, j, rounding| lengths[c] += rounding * units[j]);
+        lengths.truncate(spec.holonomic);
+        let least = |rounding: f64| rounding * f64::EPSILON / INDEPENDENT;
+        lengths.into_iter().map(least).collect()
     }
 
     /// The place of `state` on `curve`, at the part `s` of the sweep, and what the curve is to be measured by, the sweep as far as the
