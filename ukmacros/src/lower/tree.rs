@@ -274,12 +274,17 @@ impl<'m> Lowering<'m> {
                 }
                 moved.turn(&turn, &mut self.graph);
             }
-            Step::Align => {
+            Step::Hinge => {
                 let [u, w] = ["u", "w"].map(|name| self.sound(name, loc, inner));
-                if u?.entries() != w?.entries() {
-                    let turn = self.sound(ALIGNED, loc, inner)?;
-                    moved.turn(&turn, &mut self.graph);
+                if u?.entries() == w?.entries() {
+                    let about = Step::Turn("normalise(u)");
+                    return self.step(&about, next, moved, inner, joint);
                 }
+                // What does not change costs the less the fewer of its entries there are: here there are no products of a turn with it.
+                let [before, after] = [AXES_U, AXES_W].map(|axes| self.sound(axes, loc, inner));
+                moved.turn(&before?, &mut self.graph);
+                self.step(&Step::Turn("[0, 0, 1]"), next, moved, inner, joint)?;
+                moved.turn(&after?, &mut self.graph);
             }
             Step::Ball => {
                 let e = [(); 4].map(|()| coordinate(&mut self.graph));
@@ -352,5 +357,6 @@ impl<'m> Lowering<'m> {
     }
 }
 
-/// The matrix that turns `w` to `u`, and with them what `normals` gives for both.
-const ALIGNED: &str = "transpose([normals(u)[0], normals(u)[1], normalise(u)]) * [normals(w)[0], normals(w)[1], normalise(w)]";
+/// Axes of the first body of which the last is `u`, and axes of the second by rows of which the last is `w`.
+const AXES_U: &str = "transpose([normals(u)[0], normals(u)[1], normalise(u)])";
+const AXES_W: &str = "[normals(w)[0], normals(w)[1], normalise(w)]";

@@ -20,8 +20,8 @@ pub(crate) enum Step {
     Follow(&'static str, &'static str),
     /// A turn by this matrix, which does not change.
     Fix(&'static str),
-    /// What turns `w`, an axis of the second body, to `u`; nothing where they are the same.
-    Align,
+    /// A turn about `u`, an axis of the first body, and `w`, that axis in the second one, by the next coordinate.
+    Hinge,
     /// The turn of a unit quaternion, the next four coordinates.
     Ball,
 }
@@ -40,10 +40,11 @@ macro_rules! tree_joints {
     };
 }
 
-/// The identity where `u` and `w` are at right angles, else what brings `w` to a right angle with `u` in their plane.
-const CROSSED: &str = "transpose([normalise(w - inner(u, w) / sq(u) * u), normalise(u), \
-    cross(normalise(w - inner(u, w) / sq(u) * u), normalise(u))]) \
-    * [normalise(w), normalise(u - inner(u, w) / sq(w) * w), cross(normalise(w), normalise(u - inner(u, w) / sq(w) * w))]";
+/// Axes of a universal joint: what of `w` is at right angles with `u`, which is its first axis; `u`; a normal of both.
+const CROSS: &str = "transpose([normalise(w - inner(u, w) / sq(u) * u), normalise(u), \
+    cross(normalise(w - inner(u, w) / sq(u) * u), normalise(u))])";
+/// They in the second body, by rows: `w`, its second axis; what of `u` is at right angles with it; a normal of both.
+const CROSSED: &str = "[normalise(w), normalise(u - inner(u, w) / sq(w) * w), cross(normalise(w), normalise(u - inner(u, w) / sq(w) * w))]";
 
 tree_joints! {
     "pin" PLANE ["angle"] [Step::Turn("")];
@@ -51,9 +52,9 @@ tree_joints! {
     "slider" PLANE ["slide"] [Step::Slide("normalise(d)"), Step::Fix("rot(angle)")];
     "slot" PLANE ["slide", "angle"] [Step::Slide("normalise(d)"), Step::Turn("")];
     "ball" SPACE ["e0", "e1", "e2", "e3"] [Step::Ball];
-    "hinge" SPACE ["angle"] [Step::Turn("normalise(u)"), Step::Align];
-    "universal" SPACE ["first", "second"] [Step::Turn("normalise(u)"), Step::Fix(CROSSED), Step::Turn("normalise(w)")];
-    "cylinder" SPACE ["slide", "angle"] [Step::Slide("normalise(u)"), Step::Turn("normalise(u)"), Step::Align];
+    "hinge" SPACE ["angle"] [Step::Hinge];
+    "universal" SPACE ["first", "second"] [Step::Fix(CROSS), Step::Turn("[0, 1, 0]"), Step::Turn("[1, 0, 0]"), Step::Fix(CROSSED)];
+    "cylinder" SPACE ["slide", "angle"] [Step::Slide("normalise(u)"), Step::Hinge];
     "slider" SPACE ["slide"] [Step::Slide("normalise(u)"), Step::Fix("turn")];
     "weld" SPACE [] [Step::Fix("turn")];
     "screw" SPACE ["angle"] [Step::Turn("normalise(u)"), Step::Follow("normalise(u)", "lead / (2 * PI)")];

@@ -25,6 +25,39 @@ fn arms_of_the_tree_cost_what_they_cost_by_hand() {
     assert!(six <= 1320 && twelve <= 4486, "{six}, {twelve}");
 }
 
+/// Two hinges and a weld between.
+fn welded(turn: &str, axes: &str) -> usize {
+    let body = "{ mass: 1, inertia: [0.1, 0.2, 0.3], centre: [0.5, 0, 0] }";
+    operations(&format!(
+        "pub T {{ bodies {{ spatial a {body} spatial b {body} spatial c {body} }} gravity {{ [0, 0, -9.81] }} \
+         tree {{ h: hinge(ground.at([0, 0, 0]), a.at([0, 0, 0]), {axes}) k: weld(a.at([1, 0, 0]), b.at([0, 0, 0]), {turn}) \
+         j: hinge(b.at([1, 0, 0]), c.at([0, 0, 0]), {axes}) }} }}"
+    ))
+}
+
+#[test]
+fn right_angles_cost_what_their_matrix_costs() {
+    let exact = welded("[[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "[0, 0, 1]");
+    for angle in ["PI / 2", "90 * PI / 180", "-3 * (PI / 2)", "2.5 * PI"] {
+        let turn = format!(
+            "[[cos({angle}), -sin({angle}), 0], [sin({angle}), cos({angle}), 0], [0, 0, 1]]"
+        );
+        assert_eq!(welded(&turn, "[0, 0, 1]"), exact, "{angle}");
+    }
+    let other = welded("[[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]", "[0, 0, 1]");
+    assert!(other > exact, "{other}");
+}
+
+/// About an axis that is askew in one body or in both.
+#[test]
+fn hinges_askew_cost_little_more_than_straight_ones() {
+    let turn = "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]";
+    let cost = |axes: &str| welded(turn, axes);
+    assert!(cost("[0, 0, 1]") <= 53);
+    assert!(cost("[0.6, 0, 0.8], [0, 0, 1]") <= 100);
+    assert!(cost("[1, 2, 3], [3, 1, 2]") <= 325);
+}
+
 #[test]
 fn chains_of_the_tree_cost_what_they_have_bodies() {
     let chain = |n: usize| {
