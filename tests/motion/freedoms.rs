@@ -92,7 +92,7 @@ fn compare(
     let mut random = Random::new(7);
     for _ in 0..8 {
         let [w0, w1] = hard.map(|hard| hard * random.signed());
-        let options = [("w0", w0), ("w1", w1)].into();
+        let options = ["w0", "w1"].into_iter().zip([w0, w1]).collect();
         let [start, other_start]: [State; 2] =
             [&mechanism, &other].map(|m| m.start("thrown", &options).unwrap());
         let exact = Simulation::new(other.clone())

@@ -49,9 +49,16 @@ impl StartOptions {
 impl<const N: usize> From<[(&str, f64); N]> for StartOptions {
     /// The options with these names and values.
     fn from(values: [(&str, f64); N]) -> Self {
-        let values = values.map(|(name, value)| (name.to_owned(), value));
+        values.into_iter().collect()
+    }
+}
+
+impl<T: Into<String>> FromIterator<(T, f64)> for StartOptions {
+    /// The options with these names and values, the last of those with one name.
+    fn from_iter<I: IntoIterator<Item = (T, f64)>>(values: I) -> Self {
+        let values = values.into_iter().map(|(name, value)| (name.into(), value));
         StartOptions {
-            values: BTreeMap::from(values),
+            values: values.collect(),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::model::Model;
 use proc_macro2::Span;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use ukalgebra::analysis::{Dynamics, unmatched_rows};
-use ukalgebra::expr::{Graph, Id, Kind, Node, System};
+use ukalgebra::expr::{Func, Graph, Id, Kind, Node, System};
 
 /// Reports what makes the motion undetermined or a constraint meaningless.
 pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
@@ -53,8 +53,12 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
             Kind::Nonholonomic if !uses.velocity => Some(format!(
                 "constraint `{name}` contains no velocity; move it under `holonomic`"
             )),
-            _ if are_squares(constraint.phi, g) => Some(format!(
+            _ if is_least(constraint.phi, false, g) => Some(format!(
                 "constraint `{name}` sets squares to 0, which have no slope there and so say nothing of the motion; set what is squared to 0"
+            )),
+            _ if is_least(constraint.phi, true, g) => Some(format!(
+                "constraint `{name}` sets a magnitude to 0, which has no slope there and so says nothing of the motion; set to 0 what it is \
+                 the magnitude of"
             )),
             _ if dynamics.row(row).next().is_none() => Some(format!(
                 "constraint `{name}` restricts no velocity: all its derivatives are zero; remove it"
@@ -75,16 +79,20 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     repeated(system, &same, diag);
 }
 
-/// Whether `id` is a square, or a sum of squares of one sign.
-fn are_squares(id: Id, g: &Graph) -> bool {
+/// Whether `id` is a square, or a magnitude where these count, or a sum of such of one sign.
+fn is_least(id: Id, magnitudes: bool, g: &Graph) -> bool {
     match g.node(id) {
-        Node::Scale(_, of) | Node::Held(of) => are_squares(*of, g),
-        Node::Product(factors) => factors.iter().all(|(_, n)| *n > 0 && n % 2 == 0),
+        Node::Scale(_, of) | Node::Held(of) => is_least(*of, magnitudes, g),
+        Node::Product(factors) => factors
+            .iter()
+            .all(|(base, n)| *n > 0 && (n % 2 == 0 || magnitudes && is_least(*base, true, g))),
+        Node::Call(Func::Abs | Func::Hypot, _) => magnitudes,
+        Node::Call(Func::Sqrt, of) => magnitudes && is_least(of[0], false, g),
         Node::Sum(constant, terms) => {
             let one_sign = |sign: f64| terms.iter().all(|(c, _)| sign * c.get() > 0.0);
             constant.get() == 0.0
                 && (one_sign(1.0) || one_sign(-1.0))
-                && terms.iter().all(|(_, term)| are_squares(*term, g))
+                && terms.iter().all(|(_, term)| is_least(*term, magnitudes, g))
         }
         _ => false,
     }

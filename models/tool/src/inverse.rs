@@ -136,7 +136,7 @@ fn summary(
         };
         writeln!(
             out,
-            "  {name:<wide$}  effort {least} to {most}{effort}, power at most {power}{watt} at t = {at} s, work {work}{joule}"
+            "  {name:<wide$}  effort {least} to {most}{effort}, peak power {power}{watt} at t = {at} s, work {work}{joule}"
         )?;
     }
     Ok(())

@@ -416,6 +416,8 @@ cases! {
     member_in_parentheses: "coords { x[2] } mass { x«(»0): 1, x(1): 2 }" => "a member of a family is chosen in brackets: `x[0]: 1.0`";
     constraint_of_a_square: "coords { x, y } mass { x: 1, y: 1 } holonomic { «c»: sq(sq(x) + sq(y) - 1) = 0 }" => "constraint `c` sets squares to 0";
     constraint_of_squares: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { «c»: -sq(x) - 2 * sq(y - sin(x)) = 0 }" => "set what is squared to 0";
+    constraint_of_a_distance: "coords { p[2], q[2] } mass { p: 1, q: 1 } holonomic { «c»: norm(p - q) = 0 }" => "sets a magnitude to 0";
+    constraint_of_magnitudes: "coords { x, y, z } mass { x: 1, y: 1, z: 1 } holonomic { «c»: -abs(x) - 2 * hypot(y, z) - sq(z) = 0 }" => "set to 0 what it is the magnitude of";
     constraint_without_coordinate: "params { l = 1.0 } coords { x } mass { x: 1.0 } holonomic { «c»: sq(l) = sin(t) }" => "constraint `c` contains no coordinate";
     joint_under_nonholonomic: "bodies { spatial b { mass: 1.0, inertia: [1, 1, 1] } } nonholonomic { «h»: hinge(ground.at([0, 0, 0]), b.at([0, 0, 1]), [0, 1, 0]) }" => "`h` is a joint, which stands under `holonomic`; move it there";
     constraint_without_velocity: "coords { x } mass { x: 1.0 } nonholonomic { «c»: x = 1.0 }" => "contains no velocity; move it under `holonomic`";

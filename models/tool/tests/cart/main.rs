@@ -423,7 +423,7 @@ fn constraints_are_diagnosed() {
     // The rod is a row of lengths squared, its multiplier a force for each of them.
     let told = output("inverse cart --motor rod --until 0.2");
     assert!(
-        told.contains(" N/m, power at most ") && told.ends_with(" J\n"),
+        told.contains(" N/m, peak power ") && told.ends_with(" J\n"),
         "{told}"
     );
     let efforts = output("kinematics cart --drive x=0..0.1 --hold s --effort x,s");
