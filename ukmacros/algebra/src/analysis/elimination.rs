@@ -4,7 +4,7 @@
 //! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone,
 //!    also after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
 //!    coordinates, M' = Zᵀ M Z. Bodies pinned to each other are eliminated so, each with its pins, and velocities that T is written in with
-//!    their definitions ([`super::lift`]). So are bodies in space and the rates of turning that their joints were solved for
+//!    their definitions (the module `lift`). So are bodies in space and the rates of turning that their joints were solved for
 //!    ([`super::joint`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
@@ -190,9 +190,9 @@ pub struct Task<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Further {
     Nothing,
-    /// Velocities that the kinetic energy is written in, with their definitions: see [`super::lift`].
+    /// Velocities that the kinetic energy is written in, with their definitions: see the module `lift`.
     Velocities,
-    /// Copies of coordinates, tied to each other: see [`super::hub`].
+    /// Copies of coordinates, tied to each other: see the module `hub`.
     Copies,
 }
 

@@ -95,7 +95,7 @@ pub struct Straight {
     /// 1 where every pivot is safe, 0 where one is not.
     pub certificate: Id,
     /// The certificate of the acceleration: that every pivot is safe, and that q̈ meets the rows in `met`. It is less than 1 where rows
-    /// were left out, as [`super::dropping`] has it.
+    /// were left out, as the module `dropping` has it.
     pub met_too: Id,
     /// Constraints whose row of A q̈ = b is checked.
     pub met: Vec<usize>,
@@ -289,7 +289,7 @@ impl Elimination {
     /// `safe` where q̈ meets the constraints `rows`, else 0: as many as are looked at, one after the other.
     ///
     /// Terms of a row may all be rounding: where nothing is accelerated under load, or not in its direction (a bicycle that runs straight
-    /// ahead). So what is left of a row, R, may also be nothing beside √(G N²), as a row that is left out has it ([`super::dropping`]),
+    /// ahead). So what is left of a row, R, may also be nothing beside √(G N²), as a row that is left out has it (the module `dropping`),
     /// with M that is `regular`.
     fn met_by(
         &self,
