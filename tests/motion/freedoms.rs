@@ -1,8 +1,8 @@
 //! Folds of mechanisms that have freedoms besides: where branches cross is then no point of the motion, but one of many of its kind, and
 //! each motion meets another.
 
-use tests::{Random, apart};
-use ukcore::{Method, Prepared, Simulation, State};
+use tests::{Random, apart, cause};
+use ukcore::{Error, Method, Prepared, Simulation, State};
 
 ukcore::multibody! {
     /// A parallelogram on the outer half of an arm.
@@ -133,4 +133,50 @@ fn folds_of_an_arm_are_passed() {
 fn folds_of_a_platform_are_passed() {
     let places = [Delta::PLATFORM_X, Delta::PLATFORM_Y, Delta::PLATFORM_Z];
     compare(Delta::default(), &places, Level::default(), [1.5, 1.5], 1.0);
+}
+
+ukcore::multibody! {
+    /// A bead on a cone of any proportions beside one on a line, which has no part in it; far off in turns of a whole.
+    pub Cone {
+        params { across = 1.0, other = 1.0, far = 0.0 }
+        coords { x, y, z, w }
+        mass { x: 1, y: 1, z: 1, w: other }
+        holonomic { cone: sq(sin(x)) + across * sq(sin(y)) = sq(sin(z - far)) }
+        start inwards() {
+            x = 0.5; y = 0.0; z = far - 0.5; w = 0.0; dot(x) = -1.0; dot(y) = 0.0; dot(z) = 1.0; dot(w) = 0.1
+        }
+    }
+}
+
+/// Beside an apex motions turn back, whatever else there is: on both sides of this one they go different ways.
+#[test]
+fn an_apex_is_told_beside_other_freedoms() {
+    for (across, other, far) in [
+        (1.0, 1.0, 0.0),
+        (1e-4, 1.0, 0.0),
+        (1e4, 1.0, 0.0),
+        (1.0, 1e-6, 0.0),
+        (1.0, 1e6, 0.0),
+        (1e-3, 1e3, 3e4),
+        (1.0, 1.0, 1e5),
+    ] {
+        let cone = Cone { across, other, far };
+        let start = cone.start("inwards", &[].into()).unwrap();
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-5),
+            (Method::Dop853, 1e-9),
+            (Method::Dop853, 1e-12),
+            (Method::Dopri5, 1e-7),
+            (Method::Radau5, 1e-8),
+        ] {
+            let run = Simulation::new(&cone).start(start.clone()).method(method);
+            let failure = run.tolerance(tolerance).until(1.5);
+            let failure = failure.expect_err(&format!("{method}, {tolerance:e}, {cone:?}"));
+            let Error::Singular { constraints } = cause(&failure.error).1 else {
+                panic!("{method}, {tolerance:e}, {cone:?}: {failure}");
+            };
+            assert_eq!(constraints, &["cone"]);
+            assert!(failure.trajectory.last().unwrap().t < 0.5 + 1e-3);
+        }
+    }
 }

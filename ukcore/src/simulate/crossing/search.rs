@@ -27,9 +27,8 @@ const WIDEST: f64 = 2.0;
 /// The share of the way from one position to another from where the other one is looked for.
 const BEFORE: f64 = 0.9;
 
-/// Differences of A for the second derivatives of f are taken over this share of the coordinates; these are known to the share `BENT`.
-const DIFFERENCE: f64 = 1e-5;
-const BENT: f64 = 1e-3;
+/// The share to which second derivatives of f are known where the search has come to.
+const BENT: f64 = 1e-6;
 
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
@@ -403,61 +402,60 @@ impl<'a> Search<'a> {
         let speed = measure.size(&self.directions[0]) / measure.size(&other);
         other.iter_mut().for_each(|x| *x *= speed);
         directions.push(other);
-        let shares = self.shares.clone();
-        shares.iter().any(|shares| {
-            // Second derivatives show in differences in proportion, rounding and what is left of higher ones do not.
-            let [near, far] = [DIFFERENCE, 4.0 * DIFFERENCE]
-                .map(|difference| self.bent(shares, &directions, &basis, difference));
-            near.zip(far)
-                .is_some_and(|(near, far)| (2.0 * near..8.0 * near).contains(&far))
+        // Second derivatives by each of these and the vectors of the basis, from b = −q̇ᵀ ∂²φ q̇ about the motion, with which goes the time.
+        let vectors = basis.chunks_exact(n).map(|column| {
+            let mut x: Vec<f64> = column.iter().map(|x| speed * x).collect();
+            self.dense.metric.divide_transposed(&mut x);
+            x
+        });
+        let vectors: Vec<Vec<f64>> = vectors.collect();
+        let mut bends: Vec<Vec<Vec<f64>>> = Vec::new();
+        for (i, direction) in directions.iter().enumerate() {
+            let mut about = directions[0].clone();
+            if i > 0 {
+                axpy(1.0, direction, &mut about);
+            }
+            let mut bend: Vec<Vec<f64>> = vectors.iter().map(|x| self.mixed(&about, x)).collect();
+            if i > 0 {
+                let pairs = bend.iter_mut().zip(&bends[0]);
+                pairs.for_each(|(bend, moving)| axpy(-1.0, moving, bend));
+            }
+            bends.push(bend);
+        }
+        let mut rounding = vec![0.0; self.mech.spec().m()];
+        let mut v = directions[0].clone();
+        directions[1..]
+            .iter()
+            .chain(&vectors)
+            .for_each(|x| axpy(1.0, x, &mut v));
+        (self.noise).go(self.mech, self.t, [&self.q, &v], |_| [0.0; 2]);
+        self.noise.motion(&vec![0.0; n], &mut rounding);
+        self.shares.iter().any(|shares| {
+            let mut known: Vec<Vec<f64>> = Vec::new();
+            let (mut size, mut left) = (rounded(shares, &rounding) / BENT, 0.0);
+            for bend in &bends {
+                let mut bend: Vec<f64> = bend.iter().map(|b| dot(b, shares)).collect();
+                size = size.max(dot(&bend, &bend).sqrt());
+                reject(&mut bend, &known);
+                left = dot(&bend, &bend).sqrt();
+                if left > BENT * size {
+                    bend.iter_mut().for_each(|x| *x /= left);
+                    known.push(bend);
+                }
+            }
+            left > BENT * size
         })
     }
 
-    /// How much the f that `shares` make up bends in the last of `directions` otherwise than in all others, by this `difference`, if it
-    /// does.
-    fn bent(
-        &mut self,
-        shares: &[f64],
-        directions: &[Vec<f64>],
-        basis: &[f64],
-        difference: f64,
-    ) -> Option<f64> {
-        let mut known: Vec<Vec<f64>> = Vec::new();
-        let (mut size, mut left) = (0.0_f64, 0.0);
-        for direction in directions {
-            let mut bend = self.bend(shares, direction, basis, difference);
-            size = size.max(dot(&bend, &bend).sqrt());
-            reject(&mut bend, &known);
-            left = dot(&bend, &bend).sqrt();
-            if left > BENT * size {
-                bend.iter_mut().for_each(|x| *x /= left);
-                known.push(bend);
-            }
-        }
-        (left > BENT * size).then_some(left)
-    }
-
-    /// The second derivatives of the f that `shares` make up, by `direction` and each vector of `basis`, times twice this `difference` of
-    /// the coordinates that A is taken at.
-    fn bend(
-        &mut self,
-        shares: &[f64],
-        direction: &[f64],
-        basis: &[f64],
-        difference: f64,
-    ) -> Vec<f64> {
-        let n = direction.len();
-        let mut bend = vec![0.0; n];
-        for sign in [1.0, -1.0] {
-            let mut q = self.q.clone();
-            axpy(sign * difference * self.scale, direction, &mut q);
-            let jacobian = &mut self.terms.jacobian;
-            (self.mech).jacobian(self.t, &q, &self.directions[0], jacobian);
-            let columns = jacobian.chunks_exact(shares.len());
-            let pairs = bend.iter_mut().zip(columns);
-            pairs.for_each(|(x, column)| *x += sign * dot(column, shares));
-        }
-        self.along(bend, basis)
+    /// Four times the second derivatives of all residuals by `v` and `x`.
+    fn mixed(&mut self, v: &[f64], x: &[f64]) -> Vec<f64> {
+        let [plus, minus] = [1.0, -1.0].map(|sign| {
+            let mut v = v.to_vec();
+            axpy(sign, x, &mut v);
+            self.terms.dynamics(self.mech, self.t, &self.q, &v);
+            self.terms.rhs.clone()
+        });
+        minus.iter().zip(&plus).map(|(m, p)| m - p).collect()
     }
 
     /// The parts along the vectors of `basis` of `x`, which is by coordinates.
