@@ -35,19 +35,6 @@ fn welded(turn: &str, axes: &str) -> usize {
     ))
 }
 
-#[test]
-fn right_angles_cost_what_their_matrix_costs() {
-    let exact = welded("[[0, -1, 0], [1, 0, 0], [0, 0, 1]]", "[0, 0, 1]");
-    for angle in ["PI / 2", "90 * PI / 180", "-3 * (PI / 2)", "2.5 * PI"] {
-        let turn = format!(
-            "[[cos({angle}), -sin({angle}), 0], [sin({angle}), cos({angle}), 0], [0, 0, 1]]"
-        );
-        assert_eq!(welded(&turn, "[0, 0, 1]"), exact, "{angle}");
-    }
-    let other = welded("[[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]", "[0, 0, 1]");
-    assert!(other > exact, "{other}");
-}
-
 /// About an axis that is askew in one body or in both.
 #[test]
 fn hinges_askew_cost_little_more_than_straight_ones() {

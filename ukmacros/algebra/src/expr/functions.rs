@@ -6,7 +6,6 @@
 
 use super::graph::{Graph, Id, Node};
 use super::jet::Jet;
-use std::f64::consts::FRAC_PI_2;
 
 /// What a function is, and how it is differentiated and computed.
 pub struct Function {
@@ -52,18 +51,7 @@ pub(super) enum Exact {
     Never,
     /// f(x) = y.
     At(f64, f64),
-    /// The values at 0, 1, 2 and 3 right angles and whole turns more, where they are numbers.
-    Quarters([f64; 4]),
     Always,
-}
-
-/// How many right angles x is to its rounding, less whole turns.
-fn quarters(x: f64) -> Option<usize> {
-    let count = (x / FRAC_PI_2).round();
-    let whole = (x - count * FRAC_PI_2).abs() <= f64::EPSILON * x.abs() && count.abs() <= 64.0;
-    let left = count.rem_euclid(4.0);
-    let mut counts = [0.0, 1.0, 2.0, 3.0].iter();
-    counts.position(|count| whole && *count == left)
 }
 
 /// Nodes that one node serves.
@@ -165,16 +153,16 @@ macro_rules! functions {
 }
 
 use Cost::{Selection, SquareRoot};
-use Exact::{Always, At, Quarters};
+use Exact::{Always, At};
 use Symmetry::{Commutative, Even, Odd};
 
 functions! {
     Sqrt: one("sqrt", f64::sqrt, |g, _, y| { let r = g.pow(y, -1); g.scale(0.5, r) }, |x, y| (0.5 / y, -0.25 / (x * y)))
         .counts(SquareRoot).exact(Always).at_least(0.0);
-    Sin: one("sin", f64::sin, |g, u, _| g.call1(Func::Cos, u), |x, y| (x.cos(), -y)).is(Odd).exact(Quarters([0.0, 1.0, 0.0, -1.0]));
-    Cos: one("cos", f64::cos, |g, u, _| { let s = g.call1(Func::Sin, u); g.neg(s) }, |x, y| (-x.sin(), -y)).is(Even).exact(Quarters([1.0, 0.0, -1.0, 0.0]));
+    Sin: one("sin", f64::sin, |g, u, _| g.call1(Func::Cos, u), |x, y| (x.cos(), -y)).is(Odd).exact(At(0.0, 0.0));
+    Cos: one("cos", f64::cos, |g, u, _| { let s = g.call1(Func::Sin, u); g.neg(s) }, |x, y| (-x.sin(), -y)).is(Even).exact(At(0.0, 1.0));
     Tan: one("tan", f64::tan, |g, _, y| quadratic(g, 1.0, 1.0, y), |_, y| (1.0 + y * y, 2.0 * y * (1.0 + y * y)))
-        .is(Odd).exact(Quarters([0.0, f64::NAN, 0.0, f64::NAN]));
+        .is(Odd).exact(At(0.0, 0.0));
     Asin: one("asin", f64::asin, |g, u, _| { let r = quadratic(g, 1.0, -1.0, u); per_root(g, 1.0, r) }, |x, _| inverse(1.0 - x * x, x))
         .is(Odd).exact(At(0.0, 0.0));
     Acos: one("acos", f64::acos, |g, u, _| { let r = quadratic(g, 1.0, -1.0, u); per_root(g, -1.0, r) },
@@ -292,7 +280,6 @@ impl Func {
         let value = match self.row().exact {
             Exact::Never => return None,
             Exact::At(at, value) => return (x == at).then_some(value),
-            Exact::Quarters(values) => values[quarters(x)?],
             Exact::Always => self.value(x, y),
         };
         (!value.is_nan()).then_some(value)
