@@ -402,26 +402,13 @@ impl<'a> Search<'a> {
         let speed = measure.size(&self.directions[0]) / measure.size(&other);
         other.iter_mut().for_each(|x| *x *= speed);
         directions.push(other);
-        // Second derivatives by each of these and the vectors of the basis, from b = −q̇ᵀ ∂²φ q̇ about the motion, with which goes the time.
         let vectors = basis.chunks_exact(n).map(|column| {
             let mut x: Vec<f64> = column.iter().map(|x| speed * x).collect();
             self.dense.metric.divide_transposed(&mut x);
             x
         });
         let vectors: Vec<Vec<f64>> = vectors.collect();
-        let mut bends: Vec<Vec<Vec<f64>>> = Vec::new();
-        for (i, direction) in directions.iter().enumerate() {
-            let mut about = directions[0].clone();
-            if i > 0 {
-                axpy(1.0, direction, &mut about);
-            }
-            let mut bend: Vec<Vec<f64>> = vectors.iter().map(|x| self.mixed(&about, x)).collect();
-            if i > 0 {
-                let pairs = bend.iter_mut().zip(&bends[0]);
-                pairs.for_each(|(bend, moving)| axpy(-1.0, moving, bend));
-            }
-            bends.push(bend);
-        }
+        let bends = self.bends(&directions, &vectors);
         let mut rounding = vec![0.0; self.mech.spec().m()];
         let mut v = directions[0].clone();
         directions[1..]
@@ -447,7 +434,26 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Four times the second derivatives of all residuals by `v` and `x`.
+    /// Four times the second derivatives of all residuals by each of these directions, the first of which is that of the motion and the
+    /// time, and each of these vectors.
+    fn bends(&mut self, directions: &[Vec<f64>], vectors: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
+        let mut bends: Vec<Vec<Vec<f64>>> = Vec::new();
+        for (i, direction) in directions.iter().enumerate() {
+            let mut about = directions[0].clone();
+            if i > 0 {
+                axpy(1.0, direction, &mut about);
+            }
+            let mut bend: Vec<Vec<f64>> = vectors.iter().map(|x| self.mixed(&about, x)).collect();
+            if i > 0 {
+                let pairs = bend.iter_mut().zip(&bends[0]);
+                pairs.for_each(|(bend, moving)| axpy(-1.0, moving, bend));
+            }
+            bends.push(bend);
+        }
+        bends
+    }
+
+    /// Four times the second derivatives of all residuals by `v` and `x`, from b = −q̇ᵀ ∂²φ q̇.
     fn mixed(&mut self, v: &[f64], x: &[f64]) -> Vec<f64> {
         let [plus, minus] = [1.0, -1.0].map(|sign| {
             let mut v = v.to_vec();
