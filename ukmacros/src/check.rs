@@ -1,10 +1,13 @@
 //! What can be decided about a mechanism at compile time.
 
+mod sparsity;
+
 use crate::diag::{Diagnostics, is_same};
 use crate::model::Model;
 use proc_macro2::Span;
+use sparsity::unmatched_rows;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use ukalgebra::analysis::{Dynamics, unmatched_rows};
+use ukalgebra::analysis::Dynamics;
 use ukalgebra::expr::{Func, Graph, Id, Kind, Node, System};
 
 /// Reports what makes the motion undetermined or a constraint meaningless.

@@ -1,4 +1,4 @@
-//! From equations of a mechanism to what is emitted: derivatives, structure, checks, the solve, programs and their costs.
+//! From equations of a mechanism to what is emitted: derivatives, structure, the solve, programs and their costs.
 
 mod choice;
 mod cost;
@@ -17,7 +17,6 @@ mod redundant;
 mod regular;
 mod schedule;
 mod share;
-mod sparsity;
 mod structure;
 mod switches;
 mod verify;
@@ -32,7 +31,6 @@ pub use functions::{Function, Place, Role, Slice, of_parameters};
 pub use regular::Regular;
 pub use schedule::{Program, Step};
 pub use share::shared;
-pub use sparsity::unmatched_rows;
 pub use structure::Structure;
 pub use switches::Switch;
 pub use verify::verify;

@@ -2,7 +2,7 @@
 
 /// The rows, of those with the given `columns`, that a maximum matching of rows to columns leaves out. If none is left out the matrix has
 /// full row rank for almost all values of its entries.
-pub fn unmatched_rows(columns_of_row: &[Vec<usize>], columns: usize) -> Vec<usize> {
+pub(super) fn unmatched_rows(columns_of_row: &[Vec<usize>], columns: usize) -> Vec<usize> {
     let mut row_of_column: Vec<Option<usize>> = vec![None; columns];
     // For which row each column was visited last.
     let mut visited = vec![usize::MAX; columns];
