@@ -261,23 +261,23 @@ impl<'a> Sweep<'a> {
         let held = self.held.iter().map(|j| (*j, self.start.q[*j], 0.0));
         fixed.extend(held);
         let n = self.mech.spec().n();
+        let units = units(self.mech, self.start);
         Curve {
             mech: self.mech,
-            units: units(self.mech, self.start).insert_row(n, 1.0),
+            lengths: self.lengths(&units),
+            units: units.insert_row(n, 1.0),
             fixed,
             time,
             speed: 1.0,
             extent: 0.0,
-            lengths: self.lengths(),
             margin: 1.0,
         }
     }
 
-    /// How long rows of the holonomic constraints have to be to count whole: what rounding may make of one that vanishes, beside what
-    /// counts as independent.
-    fn lengths(&self) -> Vec<f64> {
+    /// How long rows of the holonomic constraints, in these units, have to be to count whole: what rounding may make of one that vanishes,
+    /// beside what counts as independent.
+    fn lengths(&self, units: &DVector<f64>) -> Vec<f64> {
         let (spec, State { t, q, .. }) = (self.mech.spec(), self.start);
-        let units = units(self.mech, self.start);
         let mut noise = Noise::new(self.mech);
         let rest = vec![0.0; q.len()];
         noise.go(self.mech, *t, [q, &rest], |_| [0.0; 2]);
