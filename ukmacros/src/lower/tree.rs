@@ -280,7 +280,7 @@ impl<'m> Lowering<'m> {
                     let about = Step::Turn("normalise(u)");
                     return self.step(&about, next, moved, inner, joint);
                 }
-                // What does not change costs the less the fewer of its entries there are: here there are no products of a turn with it.
+                // A turn about a third axis has zeros; one about `u` has none.
                 let [before, after] = [AXES_U, AXES_W].map(|axes| self.sound(axes, loc, inner));
                 moved.turn(&before?, &mut self.graph);
                 self.step(&Step::Turn("[0, 0, 1]"), next, moved, inner, joint)?;

@@ -458,10 +458,15 @@ impl<'a> Search<'a> {
         let [plus, minus] = [1.0, -1.0].map(|sign| {
             let mut v = v.to_vec();
             axpy(sign, x, &mut v);
-            self.terms.dynamics(self.mech, self.t, &self.q, &v);
-            self.terms.rhs.clone()
+            self.b(&v)
         });
         minus.iter().zip(&plus).map(|(m, p)| m - p).collect()
+    }
+
+    /// b for velocities `v`.
+    fn b(&mut self, v: &[f64]) -> Vec<f64> {
+        self.terms.dynamics(self.mech, self.t, &self.q, v);
+        self.terms.rhs.clone()
     }
 
     /// The parts along the vectors of `basis` of `x`, which is by coordinates.
@@ -479,8 +484,7 @@ impl<'a> Search<'a> {
             for (i, sign) in parts {
                 axpy(*sign, &self.directions[*i], &mut v);
             }
-            self.terms.dynamics(self.mech, self.t, &self.q, &v);
-            self.terms.rhs.clone()
+            self.b(&v)
         };
         let along = b(&[]);
         let mut all = vec![Vec::new(); k * k];
